@@ -1,0 +1,268 @@
+// The kernel list: every kernel's id, inputs, outputs, source and declared error bounds.
+// Tests, benchmarks, documentation and the `microlane` command are driven from it.
+#ifndef MICROLANE_KERNEL_LIST_H_
+#define MICROLANE_KERNEL_LIST_H_
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+namespace microlane {
+
+// Largest error found by exhaustive or adversarial search, in real-valued units in the last place of
+// the result type, over the inputs' domains. B ULP of float imply a relative error below B * 2^-23,
+// so 4096 ULP are 2^-11.
+struct Bounds {
+  float high;          // computed in double lanes, rounded once to float
+  float standard;      // float lanes, targets with a native FMA
+  float fast;          // float lanes, approximate reciprocals and roots
+  float standard_nofma;  // float lanes, targets without FMA (SSSE3, SSE4, SCALAR)
+  double double_lanes;   // double lanes on every target, in ULP of double, for inputs that are floats
+};
+
+// How an output's error is scaled.
+enum class Metric {
+  kUlp,        // |got - exact| / ulp(exact)
+  kDirection,  // component of a unit vector: |got - exact| / ulp(1)
+  // |got - exact| / (ulp(exact) * kappa), where kappa >= 1 is the amplification of an input rounding by
+  // the geometry: kappa = 1 + 1/|wi.m| + 1/|wo.z|, and + (wi.m)^2 / g^2 after refraction (g of Walter 22).
+  kConditioned,
+  kExact,  // an integer label; must agree
+};
+
+struct Output {
+  std::string_view name;
+  Metric metric;
+  std::string_view unit;
+};
+
+struct Input {
+  std::string_view name;
+  double low, high;  // domain of the declared bounds
+  std::string_view meaning;
+};
+
+struct Kernel {
+  std::string_view id;
+  std::string_view inputs;   // names in order; those behind '|' may be one value for the whole batch
+  std::string_view outputs;  // names in order
+  std::string_view source;   // paper and equation
+  std::string_view note;     // definition where the source leaves a choice, and special values
+  bool has_transport;        // takes radiance or importance transport
+  Bounds bounds;
+};
+
+// clang-format off
+
+inline constexpr Input kInputs[] = {
+    {"mx", -1, 1, "microfacet normal, x"},
+    {"my", -1, 1, "microfacet normal, y"},
+    {"mz", -1, 1, "microfacet normal, z = cos(theta_m)"},
+    {"vx", -1, 1, "direction, x"},
+    {"vy", -1, 1, "direction, y"},
+    {"vz", -1, 1, "direction, z = cos(theta_v)"},
+    {"wix", -1, 1, "direction light comes from, x"},
+    {"wiy", -1, 1, "direction light comes from, y"},
+    {"wiz", -1, 1, "direction light comes from, z"},
+    {"wox", -1, 1, "direction light leaves to, x"},
+    {"woy", -1, 1, "direction light leaves to, y"},
+    {"woz", -1, 1, "direction light leaves to, z"},
+    {"cos_i", -1, 1, "cosine on the incident side"},
+    {"cos_o", -1, 1, "cosine on the scattered side"},
+    {"alpha", 1e-5, 1e2, "roughness"},
+    {"alpha_x", 1e-5, 1e2, "roughness along x"},
+    {"alpha_y", 1e-5, 1e2, "roughness along y"},
+    {"exponent", 0, 2e10, "Phong exponent alpha_p"},
+    {"eta", 0.25, 4, "index of the transmitted over the incident side"},
+    {"u1", 0, 1, "uniform random number in [0, 1)"},
+    {"u2", 0, 1, "uniform random number in [0, 1)"},
+    {"u3", 0, 1, "uniform random number in [0, 1)"},
+    {"x", -104, 88, "argument"},
+    {"a", 0, 1e4, "1 / (alpha tan(theta)), Heitz 2014"},
+};
+
+inline constexpr Output kOutputs[] = {
+    {"D", Metric::kUlp, "1/sr"},
+    {"Lambda", Metric::kUlp, "1"},
+    {"G1", Metric::kUlp, "1"},
+    {"F", Metric::kUlp, "1"},
+    {"T", Metric::kUlp, "1"},
+    {"hx", Metric::kUlp, "1"},
+    {"hy", Metric::kUlp, "1"},
+    {"hz", Metric::kUlp, "1"},
+    {"jacobian", Metric::kUlp, "1"},
+    {"mx", Metric::kDirection, "1"},
+    {"my", Metric::kDirection, "1"},
+    {"mz", Metric::kDirection, "1"},
+    {"wox", Metric::kDirection, "1"},
+    {"woy", Metric::kDirection, "1"},
+    {"woz", Metric::kDirection, "1"},
+    {"exponent", Metric::kUlp, "1"},
+    {"f_cos", Metric::kUlp, "1/sr"},
+    {"pdf", Metric::kUlp, "1/sr"},
+    {"weight", Metric::kConditioned, "1"},
+    {"lobe", Metric::kExact, "0 none, 1 reflection, 2 transmission"},
+    {"sin", Metric::kUlp, "1"},
+    {"cos", Metric::kUlp, "1"},
+    {"y", Metric::kUlp, "1"},
+};
+
+inline constexpr std::string_view kStretch =
+    "Heitz 2014 Eq. 85/82: tan^2 = (x^2/alpha_x^2 + y^2/alpha_y^2)/z^2 of the direction as given; 0 where mz <= 0.";
+inline constexpr std::string_view kLambdaNote =
+    "a = |vz| / sqrt((alpha_x vx)^2 + (alpha_y vy)^2), the same on both sides of the surface; 0 at a = inf; "
+    "the largest finite number where the exact value exceeds it (vz = 0).";
+inline constexpr std::string_view kG1Note = "chi+((v.m)/(v.n)) / (1 + Lambda(v)); 0 where (v.m) vz <= 0.";
+inline constexpr std::string_view kFresnelNote =
+    "|cos_i| is used; 1 under total internal reflection; 0 at eta = 1.";
+inline constexpr std::string_view kEvalNote =
+    "f |cos(theta_o)|. Same signs of wiz and woz: reflection; opposite: transmission; 0 where either is 0, where a "
+    "sidedness test (Walter 7) fails, or under total internal reflection. Transmission carries eta^2 for radiance "
+    "(Walter 21 as printed) and not for importance. Height-correlated: G = 1/(1 + Lambda_i + Lambda_o), Heitz 99.";
+inline constexpr std::string_view kSeparableNote = "As above with the separable G = G1(i) G1(o), Walter 23.";
+inline constexpr std::string_view kPdfNote =
+    "Solid-angle density of wo for D cos sampling of normals (Walter 24, 38) and, with both lobes, choice by Fresnel.";
+inline constexpr std::string_view kSampleNote =
+    "wi.m > 0 on wi's side, else none; with both lobes u3 < F reflects. Outside its hemisphere: lobe 0, and every "
+    "output 0. weight = f |cos(theta_o)| / pdf in closed form (Walter 41).";
+
+inline constexpr Bounds kComponent = {1, 4, 4096, 64, 64};
+inline constexpr Bounds kValue = {1, 16, 4096, 256, 1 << 20};
+
+inline constexpr Kernel kKernels[] = {
+    // Mathematics that Highway 1.0.3 lacks, as the kernels use it.
+    {"math.exp", "x", "y", "e^x", "0 below the subnormal range.", false, kComponent},
+    {"math.neg_log1m", "u1", "y", "-log(1 - u), used by Walter 2007 Eq. 28", "u in [0, 1).", false, kComponent},
+    {"math.sincos_2pi", "u1", "sin cos", "sin(2 pi u), cos(2 pi u), used by Walter 2007 Eq. 29", "", false, kComponent},
+    {"math.erfcx_defect", "a", "y", "1 - sqrt(pi) a exp(a^2) erfc(a): Heitz 2014 Eq. 69 is Lambda = y exp(-a^2) / (2 sqrt(pi) a)", "", false, kComponent},
+
+    {"ggx.D", "mx my mz | alpha_x alpha_y", "D", "Heitz 2014 Eq. 85; Walter 2007 Eq. 33", kStretch, false, kComponent},
+    {"ggx.D_isotropic", "mx my mz | alpha", "D", "Walter 2007 Eq. 33", kStretch, false, kComponent},
+    {"ggx.Lambda", "vx vy vz | alpha_x alpha_y", "Lambda", "Heitz 2014 Eq. 86", kLambdaNote, false, kComponent},
+    {"ggx.Lambda_isotropic", "vx vy vz | alpha", "Lambda", "Heitz 2014 Eq. 72", kLambdaNote, false, kComponent},
+    {"ggx.G1", "vx vy vz mx my mz | alpha_x alpha_y", "G1", "Walter 2007 Eq. 34, stretched", kG1Note, false, kComponent},
+    {"ggx.G1_isotropic", "vx vy vz mx my mz | alpha", "G1", "Walter 2007 Eq. 34", kG1Note, false, kComponent},
+    {"ggx.sample_normal", "u1 u2 | alpha_x alpha_y", "mx my mz pdf", "Walter 2007 Eqs. 24, 35, 36, stretched", "m = normalize(alpha_x r cos(2 pi u2), alpha_y r sin(2 pi u2), 1), r = sqrt(u1/(1 - u1)); pdf = D cos.", false, kComponent},
+
+    {"beckmann.D", "mx my mz | alpha_x alpha_y", "D", "Heitz 2014 Eq. 82; Walter 2007 Eq. 25", kStretch, false, kComponent},
+    {"beckmann.D_isotropic", "mx my mz | alpha", "D", "Walter 2007 Eq. 25", kStretch, false, kComponent},
+    {"beckmann.Lambda", "vx vy vz | alpha_x alpha_y", "Lambda", "Heitz 2014 Eq. 83", kLambdaNote, false, kComponent},
+    {"beckmann.Lambda_isotropic", "vx vy vz | alpha", "Lambda", "Heitz 2014 Eq. 69", kLambdaNote, false, kComponent},
+    {"beckmann.G1", "vx vy vz mx my mz | alpha_x alpha_y", "G1", "Walter 2007 Eq. 26, stretched", kG1Note, false, kComponent},
+    {"beckmann.G1_isotropic", "vx vy vz mx my mz | alpha", "G1", "Walter 2007 Eq. 26", kG1Note, false, kComponent},
+    {"beckmann.G1_rational", "vx vy vz mx my mz | alpha_x alpha_y", "G1", "Walter 2007 Eq. 27, clamped at 1", "The error bound is against Eq. 27; Eq. 27 itself is within 0.313% of Eq. 26.", false, kComponent},
+    {"beckmann.sample_normal", "u1 u2 | alpha_x alpha_y", "mx my mz pdf", "Walter 2007 Eqs. 24, 28, 29, stretched", "m = normalize(alpha_x r cos(2 pi u2), alpha_y r sin(2 pi u2), 1), r = sqrt(-log(1 - u1)); pdf = D cos.", false, kComponent},
+    {"beckmann.sample_normal_widened", "u1 u2 cos_i | alpha_x alpha_y", "mx my mz pdf", "Walter 2007 section 5.3", "beckmann.sample_normal with both alphas times 1.2 - 0.2 sqrt(|cos_i|).", false, kComponent},
+
+    {"phong.exponent", "alpha", "exponent", "Walter 2007, after Eq. 30: 2/alpha^2 - 2", "0 for alpha >= 1.", false, kComponent},
+    {"phong.D", "mx my mz | exponent", "D", "Walter 2007 Eq. 30", "(exponent + 2)/(2 pi) mz^exponent of mz as given; 0 where mz <= 0.", false, kComponent},
+    {"phong.G1", "vx vy vz mx my mz | exponent", "G1", "Walter 2007 Eq. 27 with a = sqrt(0.5 exponent + 1)/tan(theta_v), clamped at 1", kG1Note, false, kComponent},
+    {"phong.sample_normal", "u1 u2 | exponent", "mx my mz pdf", "Walter 2007 Eqs. 24, 31, 32", "cos(theta_m) = u1^(1/(exponent + 2)); pdf = D cos.", false, kComponent},
+
+    {"fresnel.dielectric", "cos_i | eta", "F", "Walter 2007 Eq. 22", kFresnelNote, false, kComponent},
+    {"fresnel.dielectric_transmittance", "cos_i | eta", "T", "1 - F, Walter 2007 Eq. 22", "|cos_i| is used; 0 under total internal reflection; 1 at eta = 1.", false, kComponent},
+    {"fresnel.dielectric_s", "cos_i | eta", "F", "Walter 2007 Eq. 22, first factor: ((g - c)/(g + c))^2", kFresnelNote, false, kComponent},
+    {"fresnel.dielectric_p", "cos_i | eta", "F", "Walter 2007 Eq. 22, the part polarised in the plane of incidence: ((eta^2 c - g)/(eta^2 c + g))^2", kFresnelNote, false, kComponent},
+
+    {"half_vector.reflection", "wix wiy wiz wox woy woz", "hx hy hz", "Walter 2007 Eq. 13", "0 where wi = -wo; sign(0) = 1.", false, kComponent},
+    {"half_vector.reflection_jacobian", "wix wiy wiz wox woy woz", "jacobian", "Walter 2007 Eq. 14, first form |o.h|/|h_r|^2", "0 where wi = -wo.", false, kComponent},
+    {"half_vector.reflection_jacobian_cos", "cos_o", "jacobian", "Walter 2007 Eq. 14, second form 1/(4 |o.h|)", "The largest finite number at 0.", false, kComponent},
+    {"half_vector.refraction", "wix wiy wiz wox woy woz | eta", "hx hy hz", "Walter 2007 Eq. 16; Marschner 2012: -normalize(i + n o)", "Points into the side of lower index; 0 where i + eta o = 0.", false, kComponent},
+    {"half_vector.refraction_jacobian", "wix wiy wiz wox woy woz | eta", "jacobian", "Walter 2007 Eq. 17, first form; Marschner 2012: n^2 |o.h|/|i + n o|^2", "0 where i + eta o = 0.", false, kComponent},
+    {"half_vector.refraction_jacobian_cos", "cos_i cos_o | eta", "jacobian", "Walter 2007 Eq. 17, second form eta^2 |o.h|/(i.h + eta o.h)^2", "cos_i = i.h, cos_o = o.h; the largest finite number where the denominator is 0, and 0 where cos_o is 0.", false, kComponent},
+
+    {"reflect", "wix wiy wiz mx my mz", "wox woy woz", "Walter 2007 Eq. 39, as 2 (i.m) m - i", "", false, kComponent},
+    {"refract", "wix wiy wiz mx my mz | eta", "wox woy woz", "Walter 2007 Eq. 40", "sign(i.n) is sign(wiz), sign(0) = 1; 0 under total internal reflection.", false, kComponent},
+
+    {"rough_dielectric.eval", "wix wiy wiz wox woy woz | alpha_x alpha_y eta", "f_cos", "Walter 2007 Eqs. 19-21, GGX; Heitz 2014 Eq. 99", kEvalNote, true, kValue},
+    {"rough_dielectric.eval_reflection", "wix wiy wiz wox woy woz | alpha_x alpha_y eta", "f_cos", "Walter 2007 Eq. 20, GGX; Heitz 2014 Eq. 99", kEvalNote, false, kValue},
+    {"rough_dielectric.eval_transmission", "wix wiy wiz wox woy woz | alpha_x alpha_y eta", "f_cos", "Walter 2007 Eq. 21, GGX; Heitz 2014 Eq. 99", kEvalNote, true, kValue},
+    {"rough_dielectric.eval_separable", "wix wiy wiz wox woy woz | alpha_x alpha_y eta", "f_cos", "Walter 2007 Eqs. 19-21, 23, GGX", kSeparableNote, true, kValue},
+    {"rough_dielectric.eval_reflection_separable", "wix wiy wiz wox woy woz | alpha_x alpha_y eta", "f_cos", "Walter 2007 Eqs. 20, 23, GGX", kSeparableNote, false, kValue},
+    {"rough_dielectric.eval_transmission_separable", "wix wiy wiz wox woy woz | alpha_x alpha_y eta", "f_cos", "Walter 2007 Eqs. 21, 23, GGX", kSeparableNote, true, kValue},
+    {"rough_dielectric.pdf", "wix wiy wiz wox woy woz | alpha_x alpha_y eta", "pdf", "Walter 2007 Eqs. 24, 38, section 5.3, GGX", kPdfNote, false, kValue},
+    {"rough_dielectric.pdf_reflection", "wix wiy wiz wox woy woz | alpha_x alpha_y eta", "pdf", "Walter 2007 Eqs. 14, 24, 38, GGX", kPdfNote, false, kValue},
+    {"rough_dielectric.pdf_transmission", "wix wiy wiz wox woy woz | alpha_x alpha_y eta", "pdf", "Walter 2007 Eqs. 17, 24, 38, GGX", kPdfNote, false, kValue},
+    {"rough_dielectric.eval_pdf", "wix wiy wiz wox woy woz | alpha_x alpha_y eta", "f_cos pdf", "rough_dielectric.eval and .pdf in one call", kEvalNote, true, kValue},
+    {"rough_dielectric.eval_pdf_separable", "wix wiy wiz wox woy woz | alpha_x alpha_y eta", "f_cos pdf", "rough_dielectric.eval_separable and .pdf in one call", kSeparableNote, true, kValue},
+    {"rough_dielectric.sample", "wix wiy wiz u1 u2 u3 | alpha_x alpha_y eta", "wox woy woz weight pdf lobe", "Walter 2007 section 5.3, Eqs. 35-41, GGX", kSampleNote, true, kValue},
+    {"rough_dielectric.sample_separable", "wix wiy wiz u1 u2 u3 | alpha_x alpha_y eta", "wox woy woz weight pdf lobe", "Walter 2007 section 5.3, Eqs. 23, 35-41, GGX", kSampleNote, true, kValue},
+
+    {"rough_dielectric_beckmann.eval", "wix wiy wiz wox woy woz | alpha_x alpha_y eta", "f_cos", "Walter 2007 Eqs. 19-21, Beckmann; Heitz 2014 Eq. 99", kEvalNote, true, kValue},
+    {"rough_dielectric_beckmann.eval_separable", "wix wiy wiz wox woy woz | alpha_x alpha_y eta", "f_cos", "Walter 2007 Eqs. 19-21, 23, Beckmann", kSeparableNote, true, kValue},
+    {"rough_dielectric_beckmann.eval_reflection", "wix wiy wiz wox woy woz | alpha_x alpha_y eta", "f_cos", "Walter 2007 Eq. 20, Beckmann; Heitz 2014 Eq. 99", kEvalNote, false, kValue},
+    {"rough_dielectric_beckmann.eval_transmission", "wix wiy wiz wox woy woz | alpha_x alpha_y eta", "f_cos", "Walter 2007 Eq. 21, Beckmann; Heitz 2014 Eq. 99", kEvalNote, true, kValue},
+    {"rough_dielectric_beckmann.pdf", "wix wiy wiz wox woy woz | alpha_x alpha_y eta", "pdf", "Walter 2007 Eqs. 24, 38, section 5.3, Beckmann", kPdfNote, false, kValue},
+    {"rough_dielectric_beckmann.eval_pdf", "wix wiy wiz wox woy woz | alpha_x alpha_y eta", "f_cos pdf", "rough_dielectric_beckmann.eval and .pdf in one call", kEvalNote, true, kValue},
+    {"rough_dielectric_beckmann.sample", "wix wiy wiz u1 u2 u3 | alpha_x alpha_y eta", "wox woy woz weight pdf lobe", "Walter 2007 section 5.3, Eqs. 28, 29, 37-41, Beckmann", kSampleNote, true, kValue},
+
+    {"rough_dielectric_phong.eval", "wix wiy wiz wox woy woz | exponent eta", "f_cos", "Walter 2007 Eqs. 19-21, Phong; Heitz 2014 Eq. 99", kEvalNote, true, kValue},
+    {"rough_dielectric_phong.eval_separable", "wix wiy wiz wox woy woz | exponent eta", "f_cos", "Walter 2007 Eqs. 19-21, 23, Phong", kSeparableNote, true, kValue},
+    {"rough_dielectric_phong.eval_reflection", "wix wiy wiz wox woy woz | exponent eta", "f_cos", "Walter 2007 Eq. 20, Phong; Heitz 2014 Eq. 99", kEvalNote, false, kValue},
+    {"rough_dielectric_phong.eval_transmission", "wix wiy wiz wox woy woz | exponent eta", "f_cos", "Walter 2007 Eq. 21, Phong; Heitz 2014 Eq. 99", kEvalNote, true, kValue},
+    {"rough_dielectric_phong.pdf", "wix wiy wiz wox woy woz | exponent eta", "pdf", "Walter 2007 Eqs. 24, 38, section 5.3, Phong", kPdfNote, false, kValue},
+    {"rough_dielectric_phong.eval_pdf", "wix wiy wiz wox woy woz | exponent eta", "f_cos pdf", "rough_dielectric_phong.eval and .pdf in one call", kEvalNote, true, kValue},
+    {"rough_dielectric_phong.sample", "wix wiy wiz u1 u2 u3 | exponent eta", "wox woy woz weight pdf lobe", "Walter 2007 section 5.3, Eqs. 31, 32, 37-41, Phong", kSampleNote, true, kValue},
+};
+// clang-format on
+
+inline constexpr std::size_t kNumKernels = sizeof(kKernels) / sizeof(kKernels[0]);
+inline constexpr std::size_t kMaxInputs = 9;
+inline constexpr std::size_t kMaxOutputs = 6;
+
+// Names of an `inputs` or `outputs` string, in order, without the '|'.
+struct Names {
+  std::array<std::string_view, kMaxInputs> name{};
+  std::size_t count = 0;
+  std::size_t per_lane = 0;  // how many stand before '|'
+};
+
+constexpr Names Split(std::string_view text) {
+  Names names;
+  bool bar = false;
+  std::size_t i = 0;
+  while (i < text.size()) {
+    std::size_t end = i;
+    while (end < text.size() && text[end] != ' ') ++end;
+    const std::string_view word = text.substr(i, end - i);
+    if (word == "|") {
+      bar = true;
+      names.per_lane = names.count;
+    } else if (!word.empty()) {
+      names.name[names.count++] = word;
+    }
+    i = end + 1;
+  }
+  if (!bar) names.per_lane = names.count;
+  return names;
+}
+
+// Index into kKernels, or kNumKernels if there is no such id.
+constexpr std::size_t KernelIndex(std::string_view id) {
+  std::size_t i = 0;
+  while (i < kNumKernels && kKernels[i].id != id) ++i;
+  return i;
+}
+
+constexpr const Input& FindInput(std::string_view name) {
+  std::size_t i = 0;
+  while (kInputs[i].name != name) ++i;
+  return kInputs[i];
+}
+
+constexpr const Output& FindOutput(std::string_view name) {
+  std::size_t i = 0;
+  while (kOutputs[i].name != name) ++i;
+  return kOutputs[i];
+}
+
+// A sampled direction's density is a function of the random numbers through the geometry, so it is
+// judged as the weight is; every other output has the metric of its name.
+constexpr Metric MetricOf(const Kernel& kernel, std::string_view output) {
+  const bool samples_direction = kernel.outputs.size() > 4 && kernel.outputs.substr(kernel.outputs.size() - 4) == "lobe";
+  return samples_direction && output == "pdf" ? Metric::kConditioned : FindOutput(output).metric;
+}
+
+}  // namespace microlane
+
+#endif  // MICROLANE_KERNEL_LIST_H_
