@@ -23,9 +23,9 @@ struct Bounds {
 // How an output's error is scaled.
 enum class Metric {
   kUlp,        // |got - exact| / ulp(exact)
-  kDirection,  // component of a unit vector: |got - exact| / ulp(1)
+  kDirection,  // component of a unit vector: |got - exact| / ulp(1); sampled refraction: / ulp(1 + wi.m / |g|)
   // |got - exact| / (ulp(exact) * kappa), where kappa >= 1 is the amplification of an input rounding by
-  // the geometry: kappa = 1 + 1/|wi.m| + 1/|wo.z|, and + (wi.m)^2 / g^2 after refraction (g of Walter 22).
+  // the geometry: kappa = (1 + 1/|wi.m|) (1 + (wi.m)^2/|g^2|) + 1/|wo.z|, g of Walter 2007 Eq. 22.
   kConditioned,
   kExact,  // an integer label; must agree
 };
@@ -78,7 +78,7 @@ inline constexpr Input kInputs[] = {
     {"u2", 0, 1, "uniform random number in [0, 1)"},
     {"u3", 0, 1, "uniform random number in [0, 1)"},
     {"x", -104, 88, "argument"},
-    {"a", 0, 1e4, "1 / (alpha tan(theta)), Heitz 2014"},
+    {"a", 0, 32, "1 / (alpha tan(theta)), Heitz 2014"},
 };
 
 inline constexpr Output kOutputs[] = {

@@ -1,0 +1,63 @@
+#include "command.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "microlane/kernel_list.h"
+#include "microlane/targets.h"
+
+namespace microlane {
+
+void Fail(std::string_view message) {
+  std::fflush(stdout);
+  std::string line(message);
+  while (!line.empty() && line.back() == '\n') line.pop_back();
+  std::replace(line.begin(), line.end(), '\n', ' ');
+  fmt::print(stderr, "microlane: {}\n", line);
+  std::exit(kFailure);
+}
+
+void UseTarget(const std::string& target) {
+  const std::string message = target.empty() ? TargetEnvironmentError() : ChooseTarget(target);
+  if (!message.empty()) Fail(message);
+}
+
+std::string_view Name(Accuracy accuracy) {
+  return accuracy == Accuracy::kHigh ? "high" : accuracy == Accuracy::kFast ? "fast" : "standard";
+}
+
+Accuracy ParseAccuracy(std::string_view name) {
+  for (const Accuracy accuracy : kAccuracies) {
+    if (Name(accuracy) == name) return accuracy;
+  }
+  Fail(fmt::format("unknown accuracy '{}'; there are: high standard fast", name));
+}
+
+std::vector<std::size_t> SelectKernels(const std::vector<std::string>& ids) {
+  std::vector<std::size_t> selected;
+  for (std::size_t k = 0; ids.empty() && k < kNumKernels; ++k) selected.push_back(k);
+  for (const std::string& id : ids) {
+    const std::size_t before = selected.size();
+    for (std::size_t k = 0; k < kNumKernels; ++k) {
+      const std::string_view known = kKernels[k].id;
+      if (known == id || known.substr(0, known.find('.')) == id) selected.push_back(k);
+    }
+    if (selected.size() == before)
+      Fail(fmt::format("unknown kernel '{}'; `microlane list` names them all", id));
+  }
+  return selected;
+}
+
+std::string Short(double value) {
+  if (!std::isfinite(value)) return fmt::format("{}", value);
+  const double magnitude = std::abs(value);
+  if (magnitude >= 1e5) return fmt::format("{:.1e}", value);
+  const int decimals = magnitude >= 100 || magnitude == 0 ? 0 : magnitude >= 10 ? 1 : magnitude >= 1 ? 2 : 3;
+  return fmt::format("{:.{}f}", value, decimals);
+}
+
+}  // namespace microlane

@@ -1,0 +1,47 @@
+// Time of a kernel beside both yardsticks: the textbook code, and its own floor.
+#ifndef MICROLANE_BENCH_PERFORMANCE_H_
+#define MICROLANE_BENCH_PERFORMANCE_H_
+
+#include <cstddef>
+
+#include "microlane/packets.h"
+#include "operations.h"
+#include "stopwatch.h"
+#include "workload.h"
+
+namespace microlane {
+
+// The least time that a kernel's own operations take on the chosen target, in nanoseconds per lane: the
+// largest of
+//   divider: divisions and roots, at their measured throughputs, one after the other;
+//   vector:  multiplications at theirs, additions at theirs, or all vector instructions at that of a bitwise
+//   one,
+//            whichever takes longest (they share ports), and the approximations at theirs;
+//   memory:  its arrays loaded and stored and nothing else.
+// So it says how well the operations overlap, not whether fewer would do; and it is a bound from below:
+// latencies, the front end and scalar instructions are left out.
+struct Floor {
+  Operations per_vector;  // instructions per whole vector of float lanes
+  double divider = 0, vector = 0, memory = 0;
+
+  double ns() const;
+};
+
+// Of the operations that an accuracy of a kernel executes for a few hundred lanes on the chosen
+// target. Zero in all but
+// memory where operations cannot be counted.
+Floor MeasureFloor(std::size_t kernel, Accuracy accuracy, Parameters parameters);
+
+// The one path of code timed.
+enum class Path { kHigh, kStandard, kFast, kScalarFloat, kScalarDouble, kTextbook };
+
+// Nanoseconds per lane of batches of `workload` on the chosen target; `seconds` is how long to repeat.
+Timing MeasurePath(std::size_t kernel, Path path, const Workload& workload, double seconds);
+
+// Nanoseconds per lane of the textbook code at 4096 lanes; measured once for each kernel and choice of
+// parameters.
+double TextbookTime(std::size_t kernel, Parameters parameters);
+
+}  // namespace microlane
+
+#endif  // MICROLANE_BENCH_PERFORMANCE_H_

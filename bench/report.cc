@@ -1,0 +1,4 @@
+#include "command.h"
+namespace microlane {
+void AddReport(CLI::App&) {}
+}  // namespace microlane

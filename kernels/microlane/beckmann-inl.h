@@ -1,0 +1,155 @@
+// Beckmann (Walter 2007 Eqs. 25-29; Heitz 2014 Eqs. 67-69, 81-83) in lanes, isotropic (one alpha) or
+// anisotropic (two).
+#if defined(MICROLANE_BECKMANN_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef MICROLANE_BECKMANN_INL_H_
+#undef MICROLANE_BECKMANN_INL_H_
+#else
+#define MICROLANE_BECKMANN_INL_H_
+#endif
+
+#include "microlane/distribution-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace microlane {
+namespace HWY_NAMESPACE {
+namespace {
+
+struct Beckmann {
+  static constexpr bool kHasExponent = true, kMaskingInDouble = true;
+
+  // C^2 of Stretch as an unevaluated sum, kept off the underflow where exp(LogDensity) is 0 already.
+  template <Care kCare, class D, class... P>
+  static HWY_INLINE void Density(D d, Vec<D>& e, Vec<D>& e_tail, Vec<D>& w, Vec<D>, Vec<D>, Vec<D> hz,
+                                 P... p) {
+    Vec<D> ux, uy, uz, uz_tail;
+    Stretch<kCare>(d, ux, uy, uz, uz_tail, w, p...);
+    if constexpr (kCare == Care::kPlain) {
+      const Vec<D> c = hn::Mul(hz, uz);
+      e = hn::Mul(c, c);
+      e_tail = hn::Zero(d);
+    } else {
+      SquareOfProduct(d, hz, uz, uz_tail, e, e_tail);
+    }
+    if constexpr (kCare != Care::kPlain || !kIsFloat<D>) {
+      const Vec<D> low = Const(d, kIsFloat<D> ? 0x1p-60 : 0x1p-150);
+      e = hn::IfThenElse(hn::Lt(e, low), low, e);
+    }
+  }
+
+  // -(A^2 + B^2)/C^2 = -tan^2 (cos^2/alpha_x^2 + sin^2/alpha_y^2), Heitz 2014 Eq. 82.
+  template <class D, class... P>
+  static HWY_INLINE Vec<D> LogDensity(D d, Vec<D> hx, Vec<D> hy, Vec<D> hz, P... p) {
+    Vec<D> ux, uy, uz, uz_tail, w;
+    Stretch<kIsFloat<D> ? Care::kCareful : Care::kPlain>(d, ux, uy, uz, uz_tail, w, p...);
+    const Vec<D> a = hn::Mul(hx, ux), b = hn::Mul(hy, uy), c = hn::Mul(hz, uz);
+    const Vec<D> c2 = hn::Max(hn::Mul(c, c), Const(d, kIsFloat<D> ? 0x1p-60 : 0x1p-400));
+    return hn::Neg(hn::Div(hn::MulAdd(a, a, hn::Mul(b, b)), c2));
+  }
+
+  // Lambda = factor exp(-a^2) / vz with a = vz/s (Heitz 2014 Eq. 69): factor = (1 - sqrt(pi) a erfcx(a)) s /
+  // (2 sqrt(pi)), every part positive. One root and one division, which gives 1/s^2 and t. Float lanes carry
+  // the error of a^2, which exp multiplies.
+  template <Accuracy A, class D, class... P>
+  static HWY_INLINE void LambdaFactors(D d, Vec<D>& factor, Vec<D>& a2, Vec<D>& a2_tail, Vec<D> vx, Vec<D> vy,
+                                       Vec<D> z, P... p) {
+    const Vec<D> z2 = hn::Mul(z, z), roughness2 = ProjectedRoughness2<Care::kPlain>(d, vx, vy, p...);
+    // A lower s^2 would only make an exp(-a^2) that is 0 already.
+    const Vec<D> least = hn::Max(hn::Mul(z2, Const(d, kIsFloat<D> ? 1.0 / 400 : 1.0 / 2000)),
+                                 Const(d, kIsFloat<D> ? 0x1p-80 : 0x1p-600));
+    const Vec<D> s2 = hn::Max(least, roughness2);
+    const Vec<D> s = hn::Sqrt(s2);
+    const Vec<D> y = hn::MulAdd(z, Const(d, 0.3), s);
+    const Vec<D> r = Reciprocal<A>(d, hn::Mul(s2, y));
+    const Vec<D> rs2 = hn::Mul(r, y);
+    const Vec<D> t = hn::Mul(hn::Mul(r, s2), s);
+    a2 = hn::Mul(z2, rs2);
+    a2_tail = hn::Zero(d);
+    if constexpr (A != Accuracy::kFast && kIsFloat<D>) {
+      // (z^2 - a2 s^2) / s^2 with z^2, s^2 and the product exact.
+      Vec<D> zz, zz_tail, q, q_tail, x2, x2_tail, y2, y2_tail, sum, sum_tail;
+      TwoProduct(d, z, z, zz, zz_tail);
+      TwoProduct(d, a2, s2, q, q_tail);
+      SquareOfProduct(d, vx, AlphaX(p...), hn::Zero(d), x2, x2_tail);
+      SquareOfProduct(d, vy, AlphaY(p...), hn::Zero(d), y2, y2_tail);
+      TwoSum(x2, y2, sum, sum_tail);
+      const Vec<D> s2_tail =
+          hn::IfThenElseZero(hn::Ge(roughness2, least),
+                             hn::Add(hn::Sub(sum, roughness2), hn::Add(sum_tail, hn::Add(x2_tail, y2_tail))));
+      const Vec<D> rest = hn::Sub(hn::Add(hn::Sub(zz, q), zz_tail), hn::MulAdd(a2, s2_tail, q_tail));
+      a2_tail = hn::Mul(rest, rs2);
+    }
+    factor = hn::Mul(hn::Mul(hn::Mul(ErfcxDefectOverT2<A>(d, t), t), t),
+                     hn::Mul(s, Const(d, 0.28209479177387814)));
+  }
+
+  template <Care, Accuracy A, class D, class... P>
+  static HWY_INLINE Vec<D> Masking(D d, Vec<D> vx, Vec<D> vy, Vec<D> z, P... p) {
+    Vec<D> factor, a2, a2_tail;
+    LambdaFactors<A>(d, factor, a2, a2_tail, vx, vy, z, p...);
+    return hn::Add(z, ExpTimes<A>(d, hn::Neg(a2), hn::Neg(a2_tail), hn::Add(factor, factor)));
+  }
+
+  struct LambdaOp {
+    template <Accuracy A, class D, class... P>
+    static HWY_INLINE void Run(D d, Vec<D>& lambda, Vec<D>& unused, Vec<D> vx, Vec<D> vy, Vec<D> vz, P... p) {
+      Vec<D> factor, a2, a2_tail;
+      const Vec<D> z = hn::Abs(vz);
+      LambdaFactors<A>(d, factor, a2, a2_tail, vx, vy, z, p...);
+      const Vec<D> q = ExpTimes<A>(d, hn::Neg(a2), hn::Neg(a2_tail), Div<A>(d, factor, z));
+      lambda = unused = ZeroIf(hn::Eq(hn::Add(hn::Abs(vx), hn::Abs(vy)), hn::Zero(d)), q);
+    }
+  };
+
+  // In double lanes but for kFast: t near 1 has lost bits of a small a.
+  template <Accuracy A, class D, class... P>
+  static HWY_INLINE Vec<D> Lambda(D d, Vec<D> vx, Vec<D> vy, Vec<D> vz, P... p) {
+    Vec<D> lambda, unused;
+    Precisely<LambdaOp, A>(d, lambda, unused, vx, vy, vz, p...);
+    return lambda;
+  }
+
+  // Walter 2007 Eq. 27 with G1 clamped at 1: (3.535 a + 2.181 a^2)/(1 + 2.276 a + 2.577 a^2) below a = 1.6.
+  template <Accuracy A, class D, class... P>
+  static HWY_INLINE Vec<D> RationalMasking(D d, Vec<D> vx, Vec<D> vy, Vec<D> z, P... p) {
+    const Vec<D> s = Sqrt<A>(d, ProjectedRoughness2<Care::kCareful>(d, vx, vy, p...));
+    return RationalMaskingOf<A>(d, z, s, Const(d, 1));
+  }
+
+  // |vz| (1 + 2 Lambda) for a = factor z / s, with Lambda = max(0, (1 - 1.259 a + 0.396 a^2)/(3.535 a + 2.181
+  // a^2)).
+  template <Accuracy A, class D>
+  static HWY_INLINE Vec<D> RationalMaskingOf(D d, Vec<D> z, Vec<D> s, Vec<D> factor) {
+    const Vec<D> f = hn::Mul(factor, z);
+    const Vec<D> numerator =
+        hn::MulAdd(s, s, hn::Mul(f, hn::MulAdd(Const(d, 0.396), f, hn::Mul(Const(d, -1.259), s))));
+    const Vec<D> denominator = hn::Mul(factor, hn::MulAdd(Const(d, 2.181), f, hn::Mul(Const(d, 3.535), s)));
+    const Vec<D> zero = hn::Zero(d);
+    const auto one = hn::Or(hn::Ge(f, hn::Mul(Const(d, 1.6), s)), hn::Le(numerator, zero));
+    const Vec<D> twice = hn::Add(numerator, numerator);
+    return hn::Add(z, ZeroIf(one, Div<A>(d, twice, denominator)));
+  }
+
+  // Walter 2007 Eqs. 28, 29; pdf = D cos = (1 - u1) |.|^3 / (pi ax ay).
+  template <Accuracy A, class D, class... P>
+  static HWY_INLINE void SampleNormal(D d, Vec<D>& mx, Vec<D>& my, Vec<D>& mz, Vec<D>& pdf, Vec<D> u1,
+                                      Vec<D> u2, P... p) {
+    u1 = BelowOne(d, u1);
+    const Vec<D> area = hn::Mul(hn::Mul(AlphaX(p...), AlphaY(p...)), Const(d, kPi));
+    NormalFromSlopes<A>(d, mx, my, mz, pdf, Sqrt<A>(d, NegLog1m<A>(d, u1)), Const(d, 1), u2, area,
+                        AlphaX(p...), AlphaY(p...));
+    pdf = hn::Mul(pdf, hn::Sub(Const(d, 1), u1));
+  }
+
+  // 1.2 - 0.2 sqrt(|i.n|): the factor of alpha in the widened sampling of Walter 2007 section 5.3.
+  template <Accuracy A, class D>
+  static HWY_INLINE Vec<D> Widening(D d, Vec<D> cos_i) {
+    return hn::NegMulAdd(Sqrt<A>(d, hn::Abs(cos_i)), Const(d, 0.2), Const(d, 1.2));
+  }
+};
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace microlane
+HWY_AFTER_NAMESPACE();
+
+#endif  // MICROLANE_BECKMANN_INL_H_

@@ -1,0 +1,150 @@
+// Per-target include guard; the Highway names that Microlane uses beyond plain operations, and every
+// difference between Highway versions and targets.
+#if defined(MICROLANE_COMPAT_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef MICROLANE_COMPAT_INL_H_
+#undef MICROLANE_COMPAT_INL_H_
+#else
+#define MICROLANE_COMPAT_INL_H_
+#endif
+
+#include "hwy/highway.h"
+#include "microlane/packets.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace microlane {
+namespace HWY_NAMESPACE {
+namespace {  // internal linkage: a user's copy may be built with other flags
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+template <class D>
+using Vec = hn::Vec<D>;
+template <class D>
+using T = hn::TFromD<D>;
+template <class D>
+inline constexpr bool kIsFloat = sizeof(T<D>) == 4;
+
+template <class D>
+HWY_INLINE Vec<D> Const(D d, double value) {
+  return hn::Set(d, static_cast<T<D>>(value));
+}
+
+// Whether any lane is infinite or NaN.
+template <class D>
+HWY_INLINE bool AnyNonFinite(D d, Vec<D> x) {
+  return !hn::AllTrue(d, hn::Eq(hn::Sub(x, x), hn::Zero(d)));  // Ne is false of NaN on x86
+}
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX3
+HWY_INLINE bool AnyNonFinite(hn::Full512<float>, hn::Vec512<float> x) {
+  return _mm512_fpclass_ps_mask(x.raw, 0x99) != 0;
+}
+#endif
+
+// Approximate reciprocal and reciprocal root with relative error below 2^-13.9 on every target.
+template <class D>
+HWY_INLINE Vec<D> FastReciprocal(D d, Vec<D> x) {
+#if HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_EMU128
+  return hn::Div(hn::Set(d, 1.0f), x);
+#else
+  const Vec<D> r = hn::ApproximateReciprocal(x);
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX3
+  (void)d;
+  return r;
+#else
+  // One Newton step from 11.5 bits (x86); from 8 bits (Arm) it leaves 2^-16.
+  return hn::Mul(r, hn::NegMulAdd(x, r, hn::Set(d, 2.0f)));
+#endif
+#endif
+}
+
+template <class D>
+HWY_INLINE Vec<D> FastReciprocalSqrt(D d, Vec<D> x) {
+#if HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_EMU128
+  return hn::Div(hn::Set(d, 1.0f), hn::Sqrt(x));
+#else
+  const Vec<D> r = hn::ApproximateReciprocalSqrt(x);
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX3
+  (void)d;
+  return r;
+#else
+  const Vec<D> half_xr = hn::Mul(hn::Mul(hn::Set(d, 0.5f), x), r);
+  return hn::Mul(r, hn::NegMulAdd(half_xr, r, hn::Set(d, 1.5f)));
+#endif
+#endif
+}
+
+// Runs Op::Run(double tag, double inputs..., double outputs&...) on the double lanes of float vectors, and
+// rounds the outputs once. Double tags run Op on the lanes as they are. Outputs come first.
+template <class Op, class D, class... In>
+HWY_INLINE void InDouble6(D d, Vec<D>& o0, Vec<D>& o1, Vec<D>& o2, Vec<D>& o3, Vec<D>& o4, Vec<D>& o5,
+                          In... in) {
+  if constexpr (!kIsFloat<D>) {
+    Op::Run(d, o0, o1, o2, o3, o4, o5, in...);
+  } else {
+#if HWY_TARGET == HWY_SCALAR  // has no halves
+    const hn::Rebind<double, D> dd;
+    Vec<decltype(dd)> a0, a1, a2, a3, a4, a5;
+    Op::Run(dd, a0, a1, a2, a3, a4, a5, hn::PromoteTo(dd, in)...);
+    o0 = hn::DemoteTo(d, a0);
+    o1 = hn::DemoteTo(d, a1);
+    o2 = hn::DemoteTo(d, a2);
+    o3 = hn::DemoteTo(d, a3);
+    o4 = hn::DemoteTo(d, a4);
+    o5 = hn::DemoteTo(d, a5);
+#else
+    const hn::Half<D> dh;
+    const hn::Rebind<double, decltype(dh)> dd;
+    Vec<decltype(dd)> a0, a1, a2, a3, a4, a5, b0, b1, b2, b3, b4, b5;
+    Op::Run(dd, a0, a1, a2, a3, a4, a5, hn::PromoteTo(dd, hn::LowerHalf(dh, in))...);
+    Op::Run(dd, b0, b1, b2, b3, b4, b5, hn::PromoteTo(dd, hn::UpperHalf(dh, in))...);
+    o0 = hn::Combine(d, hn::DemoteTo(dh, b0), hn::DemoteTo(dh, a0));
+    o1 = hn::Combine(d, hn::DemoteTo(dh, b1), hn::DemoteTo(dh, a1));
+    o2 = hn::Combine(d, hn::DemoteTo(dh, b2), hn::DemoteTo(dh, a2));
+    o3 = hn::Combine(d, hn::DemoteTo(dh, b3), hn::DemoteTo(dh, a3));
+    o4 = hn::Combine(d, hn::DemoteTo(dh, b4), hn::DemoteTo(dh, a4));
+    o5 = hn::Combine(d, hn::DemoteTo(dh, b5), hn::DemoteTo(dh, a5));
+#endif
+  }
+}
+
+// InDouble6 with two outputs.
+template <class Op>
+struct TwoOutputs {
+  template <class DD, class... In>
+  static HWY_INLINE void Run(DD dd, Vec<DD>& o0, Vec<DD>& o1, Vec<DD>& o2, Vec<DD>& o3, Vec<DD>& o4,
+                             Vec<DD>& o5, In... in) {
+    Op::Run(dd, o0, o1, in...);
+    o2 = o3 = o4 = o5 = o0;
+  }
+};
+
+template <class Op, class D, class... In>
+HWY_INLINE void InDouble2(D d, Vec<D>& o0, Vec<D>& o1, In... in) {
+  Vec<D> o2, o3, o4, o5;
+  InDouble6<TwoOutputs<Op>>(d, o0, o1, o2, o3, o4, o5, in...);
+}
+
+// Op::Run<kStandard> in double lanes, rounded once; with kFast, Op::Run<kFast> in the lanes given.
+template <class Op>
+struct InStandard {
+  template <class DD, class... In>
+  static HWY_INLINE void Run(DD dd, Vec<DD>& o0, Vec<DD>& o1, In... in) {
+    Op::template Run<Accuracy::kStandard>(dd, o0, o1, in...);
+  }
+};
+
+template <class Op, Accuracy A, class D, class... In>
+HWY_INLINE void Precisely(D d, Vec<D>& o0, Vec<D>& o1, In... in) {
+  if constexpr (A == Accuracy::kFast) {
+    Op::template Run<A>(d, o0, o1, in...);
+  } else {
+    InDouble2<InStandard<Op>>(d, o0, o1, in...);
+  }
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace microlane
+HWY_AFTER_NAMESPACE();
+
+#endif  // MICROLANE_COMPAT_INL_H_

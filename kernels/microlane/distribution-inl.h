@@ -1,0 +1,130 @@
+// Lane functions common to every distribution of normals, over a policy `Dist` with parameters p... (alpha;
+// alpha_x, alpha_y; exponent):
+//   Density     e + e_tail and w such that D(H/|H|) / |H|^4 = w exp(LogDensity) / (pi e^2) for any half
+//   vector H LogDensity  see there; used where kHasExponent; its rounding error is multiplied by up to 88, so
+//   double lanes Masking     |vz| (1 + 2 Lambda(v)) of z = |vz|; finite at grazing SampleNormal
+#if defined(MICROLANE_DISTRIBUTION_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef MICROLANE_DISTRIBUTION_INL_H_
+#undef MICROLANE_DISTRIBUTION_INL_H_
+#else
+#define MICROLANE_DISTRIBUTION_INL_H_
+#endif
+
+#include "microlane/stretch-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace microlane {
+namespace HWY_NAMESPACE {
+namespace {
+
+template <class Dist>
+struct LogDensityOp {
+  template <class DD, class... P>
+  static HWY_INLINE void Run(DD dd, Vec<DD>& high, Vec<DD>& low, Vec<DD> hx, Vec<DD> hy, Vec<DD> hz, P... p) {
+    SplitHigh(dd, Dist::LogDensity(dd, hx, hy, hz, p...), high, low);
+  }
+};
+
+// factor exp(LogDensity) of a vector given exactly.
+template <class Dist, Accuracy A, class D, class... P>
+HWY_INLINE Vec<D> TimesExpDensity(D d, Vec<D> factor, Vec<D> hx, Vec<D> hy, Vec<D> hz, P... p) {
+  Vec<D> high, low;
+  if constexpr (A == Accuracy::kFast) {
+    high = Dist::LogDensity(d, hx, hy, hz, p...);
+    low = hn::Zero(d);
+  } else {
+    InDouble2<LogDensityOp<Dist>>(d, high, low, hx, hy, hz, p...);
+  }
+  return ExpTimes<A>(d, high, low, factor);
+}
+
+// D(m) (Walter 2007 Eqs. 25, 33; Heitz 2014 Eqs. 82, 85) of a normal as given, not normalised.
+template <class Dist, Accuracy A, class D, class... P>
+HWY_INLINE Vec<D> NormalDensity(D d, Vec<D> mx, Vec<D> my, Vec<D> mz, P... p) {
+  Vec<D> e, e_tail, w;
+  Dist::template Density<Care::kCareful>(d, e, e_tail, w, mx, my, mz, p...);
+  const Vec<D> n = hn::Mul(w, Const(d, 1 / kPi));
+  Vec<D> q;
+  if constexpr (A == Accuracy::kFast) {
+    const Vec<D> r = FastReciprocal(d, e);
+    q = hn::Mul(hn::Mul(n, r), r);
+  } else {
+    // n / e^2 with the rounding errors of e^2 and of the quotient put back.
+    Vec<D> e2, e2_tail, qe, qe_tail;
+    TwoProduct(d, e, e, e2, e2_tail);
+    e2_tail = hn::MulAdd(hn::Add(e, e), e_tail, e2_tail);
+    const Vec<D> r = hn::Div(Const(d, 1), e2);
+    q = hn::Mul(n, r);
+    TwoProduct(d, q, e2, qe, qe_tail);
+    const Vec<D> rest = hn::Sub(hn::Sub(hn::Sub(n, qe), qe_tail), hn::Mul(q, e2_tail));
+    q = hn::MulAdd(rest, r, q);
+  }
+  if constexpr (Dist::kHasExponent) q = TimesExpDensity<Dist, A>(d, q, mx, my, mz, p...);
+  return ZeroIf(hn::Le(mz, hn::Zero(d)), q);
+}
+
+struct DotOp {
+  template <Accuracy, class DD>
+  static HWY_INLINE void Run(DD, Vec<DD>& dot, Vec<DD>& unused, Vec<DD> ax, Vec<DD> ay, Vec<DD> az,
+                             Vec<DD> bx, Vec<DD> by, Vec<DD> bz) {
+    dot = unused = Dot(ax, ay, az, bx, by, bz);
+  }
+};
+
+template <class Dist>
+struct G1OfViewOp {
+  template <Accuracy A, class D, class... P>
+  static HWY_INLINE void Run(D d, Vec<D>& g1, Vec<D>& unused, Vec<D> vx, Vec<D> vy, Vec<D> vz, P... p) {
+    const Vec<D> z = hn::Abs(vz);
+    g1 = unused =
+        Div<A>(d, hn::Add(z, z), hn::Add(z, Dist::template Masking<Care::kCareful, A>(d, vx, vy, z, p...)));
+  }
+};
+
+// chi+((v.m)/(v.n)) / (1 + Lambda(v)) (Walter 2007 Eq. 51). The sign of v.m decides, so v.m is taken in
+// double lanes.
+template <class Dist, Accuracy A, class D, class... P>
+HWY_INLINE Vec<D> G1(D d, Vec<D> vx, Vec<D> vy, Vec<D> vz, Vec<D> mx, Vec<D> my, Vec<D> mz, P... p) {
+  Vec<D> g1, dot, unused;
+  if constexpr (Dist::kMaskingInDouble) {
+    Precisely<G1OfViewOp<Dist>, A>(d, g1, unused, vx, vy, vz, p...);
+  } else {
+    G1OfViewOp<Dist>::template Run<A>(d, g1, unused, vx, vy, vz, p...);
+  }
+  Precisely<DotOp, Accuracy::kStandard>(d, dot, unused, vx, vy, vz, mx, my, mz);
+  const Vec<D> zero = hn::Zero(d);
+  return ZeroIf(hn::Or(hn::Le(FlipSign(d, dot, vz), zero), hn::Eq(vz, zero)), g1);
+}
+
+// Azimuth of Walter 2007 Eq. 29 and a normal from slopes r (alpha_x cos phi, alpha_y sin phi) (Heitz 2014
+// section 5.4): m = normalize(alpha_x r cos(2 pi u2), alpha_y r sin(2 pi u2), z) and pdf = |.|^3 / area.
+template <Accuracy A, class D>
+HWY_INLINE void NormalFromSlopes(D d, Vec<D>& mx, Vec<D>& my, Vec<D>& mz, Vec<D>& pdf, Vec<D> r, Vec<D> z,
+                                 Vec<D> u2, Vec<D> area, Vec<D> alpha_x, Vec<D> alpha_y) {
+  Vec<D> sin, cos;
+  SinCos2Pi<A>(d, u2, sin, cos);
+  const Vec<D> x = hn::Mul(hn::Mul(alpha_x, cos), r);
+  const Vec<D> y = hn::Mul(hn::Mul(alpha_y, sin), r);
+  const Vec<D> length2 = Dot(x, y, z, x, y, z);
+  // One division: 1/|.| and |.|^3 / area from 1/(|.| area).
+  const Vec<D> both = Reciprocal<A>(d, hn::Mul(SqrtOfPositive<A>(d, length2), area));
+  const Vec<D> inverse = hn::Mul(both, area);
+  pdf = hn::Mul(hn::Mul(length2, both), length2);
+  mx = hn::Mul(x, inverse);
+  my = hn::Mul(y, inverse);
+  mz = hn::Mul(z, inverse);
+}
+
+// u below 1, for the total functions of the samplers; NaN passes.
+template <class D>
+HWY_INLINE Vec<D> BelowOne(D d, Vec<D> u) {
+  const Vec<D> largest = Const(d, kIsFloat<D> ? 0x1.fffffep-1 : 0x1.fffffffffffffp-1);
+  return hn::IfThenElse(hn::Gt(u, largest), largest, u);
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace microlane
+HWY_AFTER_NAMESPACE();
+
+#endif  // MICROLANE_DISTRIBUTION_INL_H_

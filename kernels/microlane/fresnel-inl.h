@@ -1,0 +1,116 @@
+// Dielectric Fresnel (Walter 2007 Eq. 22) in lanes, from squares: with c = |i.m|, g = sqrt(eta^2 - 1 + c^2),
+// p = c g, k = eta^2 - 1, A = (g + c)^2 = g^2 + c^2 + 2 p, M = p + (1 - c^2) and N = p - (1 - c^2),
+//   F = k^2 (M^2 + N^2) / (2 (A M)^2)   since (g - c)(g + c) = k,
+//   T = 1 - F = 2 p A (M^2 + eta^2) / (A M)^2,
+//   R_s = (k/A)^2,   R_p = (k ((eta^2 + 1) c^2 - 1) / (A M^2))^2.
+// One root (p) and one division; nothing cancels but N, at Brewster's angle, where F does not depend on it.
+#if defined(MICROLANE_FRESNEL_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef MICROLANE_FRESNEL_INL_H_
+#undef MICROLANE_FRESNEL_INL_H_
+#else
+#define MICROLANE_FRESNEL_INL_H_
+#endif
+
+#include "microlane/math-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace microlane {
+namespace HWY_NAMESPACE {
+namespace {
+
+// A, M and N times a common scale of c^2, g^2, p and s^2 = 1 - c^2. kKeepPositive: A stays above 0 where c =
+// g = 0 (no interface, no light), so that 0/0 is 0.
+template <bool kKeepPositive, class D>
+HWY_INLINE void FresnelTerms(D d, Vec<D>& a, Vec<D>& m, Vec<D>& n, Vec<D> c, Vec<D> g2, Vec<D> p, Vec<D> s2) {
+  a = hn::MulAdd(c, c, hn::MulAdd(Const(d, 2), p, g2));
+  if constexpr (kKeepPositive) {
+    const Vec<D> low = Const(d, kIsFloat<D> ? 1e-30 : 1e-280);
+    a = hn::IfThenElse(hn::Lt(a, low), low, a);
+  }
+  m = hn::Add(p, s2);
+  n = hn::Sub(p, s2);
+}
+
+// eta^2 - 1, rounded once.
+template <class D>
+HWY_INLINE Vec<D> EtaSquaredMinus1(D d, Vec<D> eta) {
+  const Vec<D> one = Const(d, 1);
+#if HWY_NATIVE_FMA
+  return hn::MulSub(eta, eta, one);
+#else
+  return hn::Mul(hn::Sub(eta, one), hn::Add(eta, one));
+#endif
+}
+
+// g^2 = eta^2 - 1 + c^2; negative under total internal reflection. For a c and eta that are floats, double
+// lanes make it exact, which nothing less does at the critical angle.
+struct GSquaredOp {
+  template <class DD>
+  static HWY_INLINE void Run(DD dd, Vec<DD>& g2, Vec<DD>& unused, Vec<DD> c, Vec<DD> eta) {
+    g2 = unused = hn::MulAdd(c, c, EtaSquaredMinus1(dd, eta));
+  }
+};
+
+enum class FresnelPart { kUnpolarised, kS, kP, kTransmittance };
+
+template <FresnelPart kPart>
+struct FresnelOp {
+  template <Accuracy A, class D>
+  static HWY_INLINE void Run(D d, Vec<D>& out, Vec<D>& unused, Vec<D> cos_i, Vec<D> eta) {
+    out = unused = Of<A>(d, cos_i, eta);
+  }
+
+  template <Accuracy A, class D>
+  static HWY_INLINE Vec<D> Of(D d, Vec<D> cos_i, Vec<D> eta) {
+    const Vec<D> one = Const(d, 1), zero = hn::Zero(d);
+    const Vec<D> c = hn::Abs(cos_i), k = EtaSquaredMinus1(d, eta);
+    Vec<D> g2, unused;
+    InDouble2<GSquaredOp>(d, g2, unused, c, eta);
+    g2 = hn::IfThenElse(hn::Lt(g2, zero), zero, g2);
+    const Vec<D> p = hn::Mul(c, Sqrt<A>(d, g2));
+    Vec<D> a, m, n;
+    FresnelTerms<true>(d, a, m, n, c, g2, p, hn::NegMulAdd(c, c, one));
+    const auto total = hn::Le(g2, zero);
+    const Vec<D> total_value = ZeroIf(hn::Eq(k, zero), one);
+    if constexpr (kPart == FresnelPart::kS) {
+      const Vec<D> r = Div<A>(d, k, a);
+      return hn::IfThenElse(total, total_value, hn::Mul(r, r));
+    } else if constexpr (kPart == FresnelPart::kP) {
+      // (eta^2 + 1) c^2 - 1 carried to a relative rounding, for Brewster's angle.
+      Vec<D> e2, e2_tail, cc, cc_tail, q, q_tail, s, s_tail, u, u_tail;
+      TwoProduct(d, eta, eta, e2, e2_tail);
+      TwoProduct(d, c, c, cc, cc_tail);
+      TwoProduct(d, e2, cc, q, q_tail);
+      TwoSum(q, hn::Neg(one), s, s_tail);
+      TwoSum(s, cc, u, u_tail);
+      const Vec<D> tail =
+          hn::Add(hn::Add(s_tail, q_tail), hn::MulAdd(e2, cc_tail, hn::MulAdd(e2_tail, cc, cc_tail)));
+      const Vec<D> r = Div<A>(d, hn::Mul(k, hn::Add(u, hn::Add(u_tail, tail))), hn::Mul(a, hn::Mul(m, m)));
+      return hn::IfThenElse(total, total_value, hn::Mul(r, r));
+    } else if constexpr (kPart == FresnelPart::kTransmittance) {
+      const Vec<D> m2 = hn::Mul(m, m);
+      const Vec<D> t = Div<A>(d, hn::Mul(hn::Add(p, p), hn::MulAdd(eta, eta, m2)), hn::Mul(a, m2));
+      return hn::IfThenElse(hn::Eq(k, zero), hn::MulAdd(c, zero, one), t);
+    } else {
+      const Vec<D> kr = Div<A>(d, k, hn::Mul(a, m)), km = hn::Mul(kr, m), kn = hn::Mul(kr, n);
+      const Vec<D> f = hn::Mul(Const(d, 0.5), hn::MulAdd(km, km, hn::Mul(kn, kn)));
+      return hn::IfThenElse(total, total_value, f);
+    }
+  }
+};
+
+// F, or a part of it, of a cosine of either sign (Walter 2007 Eq. 22). kStandard runs in double lanes: its
+// formula squares what has taken five roundings.
+template <FresnelPart kPart, Accuracy A, class D>
+HWY_INLINE Vec<D> FresnelDielectric(D d, Vec<D> cos_i, Vec<D> eta) {
+  Vec<D> out, unused;
+  Precisely<FresnelOp<kPart>, A>(d, out, unused, cos_i, eta);
+  return out;
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace microlane
+HWY_AFTER_NAMESPACE();
+
+#endif  // MICROLANE_FRESNEL_INL_H_

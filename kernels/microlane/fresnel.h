@@ -1,0 +1,42 @@
+// Fresnel factors of a dielectric interface in batches.
+//
+// All functions work on n lanes of float or double and are thread-safe. Errors are those that the kernel list
+// declares for the id named with each function; NaN in gives NaN out in that lane. cos_i is the cosine
+// between direction and facet normal on the incident side (its sign is ignored), eta the index of the
+// transmitted over the incident side, one value or one per lane, from 1/4 to 4.
+#ifndef MICROLANE_FRESNEL_H_
+#define MICROLANE_FRESNEL_H_
+
+#include <cstddef>
+
+#include "microlane/packets.h"
+
+namespace microlane::fresnel {
+
+// Reflectance of unpolarised light: 1 under total internal reflection, 0 at eta = 1. Walter 2007 Eq. 22.
+// fresnel.dielectric.
+template <class T>
+void Dielectric(std::size_t n, const T* cos_i, ParameterOf<T> eta, T* reflectance,
+                Accuracy accuracy = Accuracy::kStandard);
+
+// 1 - reflectance without the subtraction, accurate where it is small: 0 under total internal reflection, 1
+// at eta = 1. Walter 2007 Eq. 22. fresnel.dielectric_transmittance.
+template <class T>
+void DielectricTransmittance(std::size_t n, const T* cos_i, ParameterOf<T> eta, T* transmittance,
+                             Accuracy accuracy = Accuracy::kStandard);
+
+// Reflectance of light polarised across the plane of incidence, ((g - c)/(g + c))^2. Walter 2007 Eq. 22.
+// fresnel.dielectric_s.
+template <class T>
+void DielectricS(std::size_t n, const T* cos_i, ParameterOf<T> eta, T* reflectance,
+                 Accuracy accuracy = Accuracy::kStandard);
+
+// Reflectance of light polarised in the plane of incidence, ((eta^2 c - g)/(eta^2 c + g))^2. Walter 2007
+// Eq. 22. fresnel.dielectric_p.
+template <class T>
+void DielectricP(std::size_t n, const T* cos_i, ParameterOf<T> eta, T* reflectance,
+                 Accuracy accuracy = Accuracy::kStandard);
+
+}  // namespace microlane::fresnel
+
+#endif  // MICROLANE_FRESNEL_H_

@@ -1,0 +1,57 @@
+// Materials whose parameters have been checked.
+#ifndef MICROLANE_MATERIAL_H_
+#define MICROLANE_MATERIAL_H_
+
+#include <string>
+#include <string_view>
+
+#include "microlane/rough_dielectric.h"
+
+namespace microlane {
+
+// Empty if `value`, as a float, lies in the range that the kernel list gives the parameter `name` ("alpha_x",
+// "eta",
+// ...); else says so with name, value and range. NaN lies in no range.
+std::string CheckParameter(std::string_view name, double value);
+
+// A rough dielectric with GGX or Beckmann normals.
+class RoughDielectricMaterial {
+ public:
+  RoughDielectricMaterial(double alpha_x, double alpha_y, double eta);
+
+  bool ok() const { return error_.empty(); }
+  // What is wrong with the parameters, else empty.
+  const std::string& error() const { return error_; }
+
+  // For batch calls. Of a material that is not ok, all are NaN, and so is what is computed from them.
+  template <class T>
+  DielectricParameters<T> Parameters() const {
+    return {static_cast<T>(alpha_x_), static_cast<T>(alpha_y_), static_cast<T>(eta_)};
+  }
+
+ private:
+  double alpha_x_, alpha_y_, eta_;
+  std::string error_;
+};
+
+// A rough dielectric with Phong normals.
+class PhongDielectricMaterial {
+ public:
+  PhongDielectricMaterial(double exponent, double eta);
+
+  bool ok() const { return error_.empty(); }
+  const std::string& error() const { return error_; }
+
+  template <class T>
+  PhongDielectricParameters<T> Parameters() const {
+    return {static_cast<T>(exponent_), static_cast<T>(eta_)};
+  }
+
+ private:
+  double exponent_, eta_;
+  std::string error_;
+};
+
+}  // namespace microlane
+
+#endif  // MICROLANE_MATERIAL_H_

@@ -1,0 +1,373 @@
+// Lane mathematics that Highway 1.0.3 lacks, in float and double lanes. Bounds: kernel_list.h, family `math`.
+#if defined(MICROLANE_MATH_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef MICROLANE_MATH_INL_H_
+#undef MICROLANE_MATH_INL_H_
+#else
+#define MICROLANE_MATH_INL_H_
+#endif
+
+#include "microlane/compat-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace microlane {
+namespace HWY_NAMESPACE {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+// ln 2 = high + low, where high has so few bits that its product with an exponent is exact.
+template <class D>
+constexpr double kLn2High = kIsFloat<D> ? 0.693145751953125 : 0.693147180369123816490;
+template <class D>
+constexpr double kLn2Low = kIsFloat<D> ? 1.42860682030941723212e-6 : 1.90821492927058770002e-10;
+
+// Square root, reciprocal and quotient at an accuracy. kFast: relative error below 2^-13; zero stays zero.
+template <Accuracy A, class D>
+HWY_INLINE Vec<D> Sqrt(D d, Vec<D> x) {
+  if constexpr (A == Accuracy::kFast) {
+    return hn::Mul(x, FastReciprocalSqrt(d, hn::Max(hn::Set(d, 1e-37f), x)));
+  } else {
+    (void)d;
+    return hn::Sqrt(x);
+  }
+}
+
+// The same for x >= 1e-37.
+template <Accuracy A, class D>
+HWY_INLINE Vec<D> SqrtOfPositive(D d, Vec<D> x) {
+  if constexpr (A == Accuracy::kFast) {
+    return hn::Mul(x, FastReciprocalSqrt(d, x));
+  } else {
+    (void)d;
+    return hn::Sqrt(x);
+  }
+}
+
+template <Accuracy A, class D>
+HWY_INLINE Vec<D> Reciprocal(D d, Vec<D> x) {
+  if constexpr (A == Accuracy::kFast) {
+    return FastReciprocal(d, x);
+  } else {
+    return hn::Div(Const(d, 1), x);
+  }
+}
+
+template <Accuracy A, class D>
+HWY_INLINE Vec<D> Div(D d, Vec<D> a, Vec<D> b) {
+  if constexpr (A == Accuracy::kFast) {
+    return hn::Mul(a, FastReciprocal(d, b));
+  } else {
+    (void)d;
+    return hn::Div(a, b);
+  }
+}
+
+// value where `invalid` does not hold, else 0. Tests are written so that NaN is never `invalid`.
+template <class M, class V>
+HWY_INLINE V ZeroIf(M invalid, V value) {
+  return hn::IfThenZeroElse(invalid, value);
+}
+
+// Whether x is not within [low, high], for positive float bounds; true of NaN. Positive floats are ordered as
+// their bits.
+template <class D>
+HWY_INLINE hn::Mask<D> OutOfRange(D d, Vec<D> x, float low, float high) {
+  const hn::RebindToUnsigned<D> du;
+  const auto bottom = hn::BitCast(du, hn::Set(d, low)), top = hn::BitCast(du, hn::Set(d, high));
+  return hn::RebindMask(d, hn::Gt(hn::Sub(hn::BitCast(du, x), bottom), hn::Sub(top, bottom)));
+}
+
+// a * b = p + e exactly.
+template <class D>
+HWY_INLINE void TwoProduct(D d, Vec<D> a, Vec<D> b, Vec<D>& p, Vec<D>& e) {
+  p = hn::Mul(a, b);
+#if HWY_NATIVE_FMA
+  (void)d;
+  e = hn::MulSub(a, b, p);
+#else
+  // Dekker's splitting, exact while 4097 a (2^27 + 1 in double) does not overflow.
+  const Vec<D> factor = Const(d, kIsFloat<D> ? 4097.0 : 134217729.0);
+  const Vec<D> ca = hn::Mul(factor, a), cb = hn::Mul(factor, b);
+  const Vec<D> ah = hn::Sub(ca, hn::Sub(ca, a)), bh = hn::Sub(cb, hn::Sub(cb, b));
+  const Vec<D> al = hn::Sub(a, ah), bl = hn::Sub(b, bh);
+  e = hn::Add(hn::Add(hn::Add(hn::Sub(hn::Mul(ah, bh), p), hn::Mul(ah, bl)), hn::Mul(al, bh)),
+              hn::Mul(al, bl));
+#endif
+}
+
+// a + b = s + e exactly.
+template <class V>
+HWY_INLINE void TwoSum(V a, V b, V& s, V& e) {
+  s = hn::Add(a, b);
+  const V bb = hn::Sub(s, a);
+  e = hn::Add(hn::Sub(a, hn::Sub(s, bb)), hn::Sub(b, bb));
+}
+
+// The same for |a| >= |b|.
+template <class V>
+HWY_INLINE void FastTwoSum(V a, V b, V& s, V& e) {
+  s = hn::Add(a, b);
+  e = hn::Sub(b, hn::Sub(s, a));
+}
+
+// (a (b + b_tail))^2 = p + p_tail to twice the working precision.
+template <class D>
+HWY_INLINE void SquareOfProduct(D d, Vec<D> a, Vec<D> b, Vec<D> b_tail, Vec<D>& p, Vec<D>& p_tail) {
+  Vec<D> q, q_tail;
+  TwoProduct(d, a, b, q, q_tail);
+  q_tail = hn::MulAdd(a, b_tail, q_tail);
+  TwoProduct(d, q, q, p, p_tail);
+  p_tail = hn::MulAdd(hn::Add(q, q), q_tail, p_tail);
+}
+
+// x = high + low, where high of a double has no more bits than a float, so that both can be demoted.
+template <class D>
+HWY_INLINE void SplitHigh(D d, Vec<D> x, Vec<D>& high, Vec<D>& low) {
+  if constexpr (kIsFloat<D>) {
+    high = x;
+    low = hn::Zero(d);
+  } else {
+    const hn::RebindToUnsigned<D> du;
+    high = hn::BitCast(d, hn::And(hn::BitCast(du, x), hn::Set(du, 0xFFFFFFFFE0000000u)));
+    low = hn::Sub(x, high);
+  }
+}
+
+template <class V>
+HWY_INLINE V Dot(V ax, V ay, V az, V bx, V by, V bz) {
+  return hn::MulAdd(az, bz, hn::MulAdd(ay, by, hn::Mul(ax, bx)));
+}
+
+// x with its sign flipped where `sign` is negative.
+template <class D>
+HWY_INLINE Vec<D> FlipSign(D d, Vec<D> x, Vec<D> sign) {
+  return hn::Xor(x, hn::And(sign, hn::SignBit(d)));
+}
+
+// sum_i c[i] x^i by Horner's rule, rounded as one FMA per step.
+template <class D, size_t N>
+HWY_INLINE Vec<D> Polynomial(D d, Vec<D> x, const double (&c)[N]) {
+  Vec<D> y = Const(d, c[N - 1]);
+  for (size_t i = N - 1; i-- > 0;) y = hn::MulAdd(y, x, Const(d, c[i]));
+  return y;
+}
+
+// factor e^(x + tail), tail a correction of at most a few ulps of x, rounded once into the subnormal range
+// even where e^x alone is below it. |log2 factor| <= 90 (900 in double). 0 far below the subnormal range,
+// without arithmetic that underflows (it is slow on x86).
+template <Accuracy A, class D>
+HWY_INLINE Vec<D> ExpTimes(D d, Vec<D> x, Vec<D> tail, Vec<D> factor) {
+  const hn::RebindToSigned<D> di;
+  constexpr int kBits = kIsFloat<D> ? 23 : 52, kBias = kIsFloat<D> ? 127 : 1023;
+  constexpr double kLimit = kIsFloat<D> ? 170 : 1400;
+  const auto vanishes = hn::Lt(x, Const(d, -kLimit));  // NaN passes
+  const Vec<D> high = Const(d, kLimit);
+  x = ZeroIf(vanishes, hn::IfThenElse(hn::Gt(x, high), high, x));
+  const Vec<D> n = hn::Round(hn::Mul(x, Const(d, 1.44269504088896340736)));
+  Vec<D> r = hn::NegMulAdd(n, Const(d, kLn2High<D>), x);
+  r = hn::Add(hn::NegMulAdd(n, Const(d, kLn2Low<D>), r), tail);
+  Vec<D> p;
+  if constexpr (A == Accuracy::kFast) {
+    // sollya: fpminimax(exp(x), [|2,3,4|], [|SG...|], [-0.3466;0.3466], relative, 1+x): 2^-17.5
+    p = Polynomial(d, r,
+                   {0.50005114078521728515625, 0.1675352752208709716796875, 4.1278026998043060302734375e-2});
+  } else if constexpr (kIsFloat<D>) {
+    // sollya: fpminimax(exp(x), [|2,...,6|], [|SG...|], [-0.3466;0.3466], relative, 1+x): 2^-28.2
+    p = Polynomial(
+        d, r,
+        {0.4999999105930328369140625, 0.16666521131992340087890625, 4.16689626872539520263671875e-2,
+         8.368670009076595306396484375e-3, 1.378246466629207134246826171875e-3});
+  } else {
+    // sollya: fpminimax(exp(x), [|2,...,12|], [|D...|], [-0.3466;0.3466], relative, 1+x): 2^-63.5
+    p = Polynomial(d, r,
+                   {0.5, 0.16666666666666685170383743752609007060527801513671875,
+                    4.16666666666665463925056656080414541065692901611328125e-2,
+                    8.33333333331599639126618939144464093260467052459716796875e-3,
+                    1.38888888889564352142891312524852764909155666828155517578125e-3,
+                    1.98412698985076549167139159379757984424941241741180419921875e-4,
+                    2.480158717782842217342703650118096447840798646211624145507812e-5,
+                    2.755723304631957282695344652045932321016152855008840560913086e-6,
+                    2.755739908990350990288832611074809619822190143167972564697266e-7,
+                    2.511259157709188156915254867222048185126936914457473903894424e-8,
+                    2.08765893735687343299628254602445798226995066215749830007553e-9});
+  }
+  const Vec<D> y = hn::Add(Const(d, 1), hn::MulAdd(hn::Mul(r, r), p, r));
+  // 2^n in two factors, so that subnormal results are rounded once.
+  const auto ni = hn::ConvertTo(di, n);
+  const auto n1 = hn::ShiftRight<1>(ni);
+  const auto n2 = hn::Sub(ni, n1);
+  const auto bias = hn::Set(di, static_cast<hn::TFromD<decltype(di)>>(kBias));
+  const Vec<D> s1 = hn::BitCast(d, hn::ShiftLeft<kBits>(hn::Add(n1, bias)));
+  const Vec<D> s2 = hn::BitCast(d, hn::ShiftLeft<kBits>(hn::Add(n2, bias)));
+  return ZeroIf(vanishes, hn::Mul(hn::Mul(hn::Mul(y, factor), s1), s2));
+}
+
+// e^(x + tail).
+template <Accuracy A, class D>
+HWY_INLINE Vec<D> Exp(D d, Vec<D> x, Vec<D> tail) {
+  return ExpTimes<A>(d, x, tail, Const(d, 1));
+}
+
+// 2 atanh(s) for |s| <= 3 - 2 sqrt 2, where log((1 + s)/(1 - s)) is meant.
+template <Accuracy A, class D>
+HWY_INLINE Vec<D> TwoAtanh(D d, Vec<D> s) {
+  const Vec<D> y = hn::Mul(s, s);
+  Vec<D> p;
+  if constexpr (A == Accuracy::kFast) {
+    // sollya: fpminimax((2*atanh(sqrt(x))/sqrt(x)-2)/x, 1, [|24...|], [1b-60;0.02945], absolute): 2^-21
+    p = Polynomial(d, y, {0.666634619235992431640625, 0.40861070156097412109375});
+  } else if constexpr (kIsFloat<D>) {
+    // as above, degree 2: 2^-28.5
+    p = Polynomial(d, y, {0.66666686534881591796875, 0.3998853862285614013671875, 0.29587137699127197265625});
+  } else {
+    // as above, degree 7, [|D...|]: 2^-65.7
+    p = Polynomial(d, y,
+                   {0.66666666666666662965923251249478198587894439697265625,
+                    0.400000000000053201887340037501417100429534912109375,
+                    0.285714285691719804827215511977556161582469940185546875,
+                    0.222222226558418167741137949633412063121795654296875,
+                    0.1818177369468834403409829292036283303625676441192626953125,
+                    0.1538721608392169259982625296399532352365553379058837890625,
+                    0.13246652407214931995645648068492300808429718017578125,
+                    0.1328707950828539596788147036932056963086128234863281250});
+  }
+  return hn::MulAdd(s, Const(d, 2), hn::Mul(hn::Mul(s, y), p));
+}
+
+// x = 2^k m with m in [sqrt(1/2), sqrt(2)), x positive and normal.
+template <class D>
+HWY_INLINE void SplitExponent(D d, Vec<D> x, Vec<D>& k, Vec<D>& m) {
+  const hn::RebindToSigned<D> di;
+  using I = hn::TFromD<decltype(di)>;
+  constexpr int kBits = kIsFloat<D> ? 23 : 52;
+  const auto half =
+      hn::Set(di, kIsFloat<D> ? static_cast<I>(0x3F3504F3) : static_cast<I>(0x3FE6A09E667F3BCD));
+  const auto steps = hn::Sub(hn::BitCast(di, x), half);
+  const auto e = hn::ShiftRight<kBits>(steps);
+  const auto mantissa = hn::Sub(hn::BitCast(di, x), hn::ShiftLeft<kBits>(e));
+  k = hn::ConvertTo(d, e);
+  m = hn::BitCast(d, mantissa);
+}
+
+// -log(1 - u) for u in [0, 1), keeping the relative accuracy of small u.
+template <Accuracy A, class D>
+HWY_INLINE Vec<D> NegLog1m(D d, Vec<D> u) {
+  const Vec<D> one = Const(d, 1);
+  // Total function: u >= 1 behaves as the largest number below 1; NaN passes.
+  const Vec<D> largest = Const(d, kIsFloat<D> ? 0x1.fffffep-1 : 0x1.fffffffffffffp-1);
+  u = hn::IfThenElse(hn::Ge(u, one), largest, u);
+  const Vec<D> w = hn::Sub(one, u);
+  const Vec<D> error = hn::Sub(hn::Sub(one, w), u);  // 1 - u = w + error, exactly
+  Vec<D> k, m;
+  SplitExponent(d, w, k, m);
+  const Vec<D> f = hn::Sub(m, one);
+  // log(m + e) = 2 atanh(s), s = (f + e)/(2 + f + e); the error term matters only where k = 0, m = w.
+  const Vec<D> e = hn::IfThenElseZero(hn::Eq(k, hn::Zero(d)), error);
+  const Vec<D> s = Div<A>(d, hn::Add(f, e), hn::Add(hn::Add(f, Const(d, 2)), e));
+  const Vec<D> log_m = TwoAtanh<A>(d, s);
+  return hn::Neg(hn::MulAdd(k, Const(d, kLn2High<D>), hn::MulAdd(k, Const(d, kLn2Low<D>), log_m)));
+}
+
+// log(x) for positive normal x.
+template <Accuracy A, class D>
+HWY_INLINE Vec<D> Log(D d, Vec<D> x) {
+  Vec<D> k, m;
+  SplitExponent(d, x, k, m);
+  const Vec<D> f = hn::Sub(m, Const(d, 1));
+  const Vec<D> log_m = TwoAtanh<A>(d, Div<A>(d, f, hn::Add(f, Const(d, 2))));
+  return hn::MulAdd(k, Const(d, kLn2High<D>), hn::MulAdd(k, Const(d, kLn2Low<D>), log_m));
+}
+
+// sin(2 pi u), cos(2 pi u) for |u| < 2^21 (2^50 in double): the reduction to an eighth of a turn is exact.
+template <Accuracy A, class D>
+HWY_INLINE void SinCos2Pi(D d, Vec<D> u, Vec<D>& sin, Vec<D>& cos) {
+  const hn::RebindToSigned<D> di;
+  const Vec<D> q = hn::Round(hn::Mul(u, Const(d, 4)));
+  const Vec<D> r = hn::NegMulAdd(q, Const(d, 0.25), u);
+  const Vec<D> y = hn::Mul(r, r);
+  Vec<D> s, c;
+  if constexpr (A == Accuracy::kFast) {
+    // sollya: fpminimax(sin(2*pi*sqrt(x))/sqrt(x), 2, [|24...|], [1b-40;1b-6], relative): 2^-19.3; cos:
+    // 2^-16.4
+    s = hn::Mul(r, Polynomial(d, y, {6.283175945281982421875, -41.3311004638671875, 79.8117523193359375}));
+    c = Polynomial(d, y, {0.99998819828033447265625, -19.726787567138671875, 62.9062347412109375});
+  } else if constexpr (kIsFloat<D>) {
+    // sollya: fpminimax((sin(2*pi*sqrt(x))/sqrt(x)-2*pi)/x, 3, [|24...|], [1b-40;1b-6], absolute): 2^-31.9,
+    // with 2 pi in two parts; fpminimax(cos(2*pi*sqrt(x)), 4, [|24...|], [1b-40;1b-6], relative): 2^-30.8
+    const Vec<D> p = Polynomial(
+        d, y, {-41.341701507568359375, 81.60486602783203125, -76.654205322265625, 39.870723724365234375});
+    s = hn::MulAdd(r, Const(d, 6.283185482025146484375),
+                   hn::Mul(r, hn::MulAdd(y, p, Const(d, -1.7484555e-7))));
+    c = Polynomial(
+        d, y, {1, -19.739208221435546875, 64.939178466796875, -85.42949676513671875, 58.814777374267578125});
+  } else {
+    // as above, degrees 7 and 8, [|53...|]: 2^-61.5 and 2^-61.4
+    const Vec<D> p = Polynomial(d, y,
+                                {-41.34170224039976204721824615262448787689208984375,
+                                 81.6052492760793910520078497938811779022216796875,
+                                 -76.7058597560603203646678593941032886505126953125,
+                                 42.05869485907934546276010223664343357086181640625,
+                                 -15.0947856171911443112776396446861326694488525390625,
+                                 3.831937978176611192537848182837478816509246826171875,
+                                 -1.2295319608865826754851013902225531637668609619140625,
+                                 8.8324023774429054611800893326289951801300048828125});
+    s = hn::MulAdd(r, Const(d, 6.28318530717958623),
+                   hn::Mul(r, hn::MulAdd(y, p, Const(d, 2.4492935982947064e-16))));
+    c = Polynomial(
+        d, y,
+        {1, -19.73920880217871598460988025180995464324951171875,
+         64.939394022666732553261681459844112396240234375, -85.45681720597877983891521580517292022705078125,
+         60.24464120865024341355820070020854473114013671875, -26.42623622542015482395072467625141143798828125,
+         7.902082880912221440894427360035479068756103515625,
+         -1.660302315941826645229184578056447207927703857421875,
+         -0.5434452619824003960502523113973438739776611328125});
+  }
+  // Quarter turns: odd ones swap, 2 and 3 negate the sine, 1 and 2 the cosine.
+  const auto qi = hn::ConvertTo(di, q);
+  using I = hn::TFromD<decltype(di)>;
+  constexpr int kSign = sizeof(I) * 8 - 2;
+  const auto one = hn::Set(di, I{1}), two = hn::Set(di, I{2});
+  const auto odd = hn::MaskFromVec(hn::BitCast(d, hn::VecFromMask(di, hn::Eq(hn::And(qi, one), one))));
+  const auto sin_sign = hn::BitCast(d, hn::ShiftLeft<kSign>(hn::And(qi, two)));
+  const auto cos_sign = hn::BitCast(d, hn::ShiftLeft<kSign>(hn::And(hn::Add(qi, one), two)));
+  sin = hn::Xor(hn::IfThenElse(odd, c, s), sin_sign);
+  cos = hn::Xor(hn::IfThenElse(odd, s, c), cos_sign);
+}
+
+// The factor Q(t) of 1 - sqrt(pi) a erfcx(a) = t^2 Q(t), t = 1/(1 + 0.3 a), for a >= 0: smooth and positive,
+// so the product keeps its relative accuracy both where the left side tends to 1 and where it falls as 1/(2
+// a^2).
+template <Accuracy A, class D>
+HWY_INLINE Vec<D> ErfcxDefectOverT2(D d, Vec<D> t) {
+  const Vec<D> u = hn::Sub(t, Const(d, 0.5));
+  // sollya: fpminimax(h, n, [|24...|], [1/(1+0.3*32)-0.5; 0.5], relative), x = t - 1/2, a =
+  // (1/(x+0.5)-1)/0.3, h = (1 - sqrt(pi)*a*exp(a^2)*erfc(a))/(x+0.5)^2. n = 6: 2^-13.8; 11: 2^-26.0; 23
+  // ([|53...|]): 2^-58.
+  if constexpr (A == Accuracy::kFast) {
+    return Polynomial(
+        d, u,
+        {0.15991902351379394531, 0.50528323650360107421, 1.01261687278747558593, 1.50253736972808837890,
+         1.66112601757049560546, 1.18941855430603027343, 0.35511824488639831542});
+  } else if constexpr (kIsFloat<D>) {
+    return Polynomial(d, u,
+                      {0.15992057323455810546, 0.50547331571578979492, 1.01295614242553710937,
+                       1.49464774131774902343, 1.64550137519836425781, 1.26388192176818847656,
+                       0.49650272727012634277, -0.18230207264423370361, -0.35347989201545715332,
+                       -8.64281132817268371582e-2, 0.12273683398962020874, 5.88537827134132385253e-2});
+  } else {
+    return Polynomial(
+        d, u, {0.1599205735508623,    0.5054733181831186,    1.012956586972307,    1.4946491849556878,
+               1.6454699745495296,    1.2637903546370086,    0.4972037245253817,   -0.1805243532248227,
+               -0.3603990984405766,   -0.10109790510108742,  0.15522535356316522,  0.11337103549662786,
+               -0.0652487339701891,   -0.08501314322562978,  0.033689121588146576, 0.06047603115585666,
+               -0.02477833422946185,  -0.04229037271195809,  0.02318471639553396,  0.026310067724108672,
+               -0.020470189051618255, -0.010159721248863957, 0.01105217126668251,  -0.0006755781710294431});
+  }
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace microlane
+HWY_AFTER_NAMESPACE();
+
+#endif  // MICROLANE_MATH_INL_H_

@@ -1,0 +1,16 @@
+// Everything a user of batch calls needs.
+#ifndef MICROLANE_MICROLANE_H_
+#define MICROLANE_MICROLANE_H_
+
+#include "microlane/beckmann.h"          // IWYU pragma: export
+#include "microlane/fresnel.h"           // IWYU pragma: export
+#include "microlane/ggx.h"               // IWYU pragma: export
+#include "microlane/half_vector.h"       // IWYU pragma: export
+#include "microlane/kernel_list.h"       // IWYU pragma: export
+#include "microlane/material.h"          // IWYU pragma: export
+#include "microlane/packets.h"           // IWYU pragma: export
+#include "microlane/phong.h"             // IWYU pragma: export
+#include "microlane/rough_dielectric.h"  // IWYU pragma: export
+#include "microlane/targets.h"           // IWYU pragma: export
+
+#endif  // MICROLANE_MICROLANE_H_

@@ -1,0 +1,120 @@
+// Phong (Walter 2007 Eqs. 30-32) in lanes, with Walter's recipe for its masking.
+#if defined(MICROLANE_PHONG_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef MICROLANE_PHONG_INL_H_
+#undef MICROLANE_PHONG_INL_H_
+#else
+#define MICROLANE_PHONG_INL_H_
+#endif
+
+#include "microlane/beckmann-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace microlane {
+namespace HWY_NAMESPACE {
+namespace {
+
+struct Phong {
+  static constexpr bool kHasExponent = true, kMaskingInDouble = true;
+
+  // D/|H|^4 = (exponent + 2)/(2 pi |H|^4) cos^exponent: e = |H|^2.
+  template <Care, class D>
+  static HWY_INLINE void Density(D d, Vec<D>& e, Vec<D>& e_tail, Vec<D>& w, Vec<D> hx, Vec<D> hy, Vec<D> hz,
+                                 Vec<D> exponent) {
+    e = Dot(hx, hy, hz, hx, hy, hz);
+    e_tail = hn::Zero(d);
+    w = hn::MulAdd(exponent, Const(d, 0.5), Const(d, 1));
+  }
+
+  // exponent log(cos) = -exponent/2 log(1 + tan^2), log1p keeping its accuracy near the normal.
+  template <class D>
+  static HWY_INLINE Vec<D> LogDensity(D d, Vec<D> hx, Vec<D> hy, Vec<D> hz, Vec<D> exponent) {
+    const Vec<D> r2 = hn::MulAdd(hx, hx, hn::Mul(hy, hy));
+    const Vec<D> z2 = hn::Max(hn::Mul(hz, hz), Const(d, kIsFloat<D> ? 0x1p-100 : 0x1p-900));
+    const Vec<D> sum = hn::Add(r2, z2);
+    // Below tan = 0.41, log(1 + t) = 2 atanh(t/(2 + t)) by its series alone; above, through the exponent of 1
+    // + t.
+    const Vec<D> near = TwoAtanh<Accuracy::kStandard>(d, hn::Div(r2, hn::Add(sum, z2)));
+    const Vec<D> far = Log<Accuracy::kStandard>(d, hn::Div(sum, z2));
+    const Vec<D> log = hn::IfThenElse(hn::Lt(r2, hn::Mul(z2, Const(d, 0.41))), near, far);
+    return hn::Max(hn::Mul(hn::Mul(exponent, Const(d, -0.5)), log), Const(d, -2000));
+  }
+
+  // 2/alpha^2 - 2 = 2 (1 - alpha)(1 + alpha)/alpha^2 (Walter 2007, after Eq. 30); 0 for alpha >= 1.
+  template <Accuracy A, class D>
+  static HWY_INLINE Vec<D> Exponent(D d, Vec<D> alpha) {
+    const Vec<D> one = Const(d, 1), rest = hn::Sub(one, alpha);
+    const Vec<D> q = Div<A>(d, hn::Mul(hn::Add(rest, rest), hn::Add(one, alpha)), hn::Mul(alpha, alpha));
+    return ZeroIf(hn::Ge(alpha, one), q);
+  }
+
+  // D(m) of Walter 2007 Eq. 30 with cos(theta_m) = mz as given.
+  template <Accuracy A, class D>
+  static HWY_INLINE Vec<D> NormalDensity(D d, Vec<D> mz, Vec<D> exponent) {
+    Vec<D> high, low;
+    InDouble2<PowerOp>(d, high, low, mz, exponent);
+    const Vec<D> norm = hn::Mul(hn::Add(exponent, Const(d, 2)), Const(d, 0.5 / kPi));
+    return ZeroIf(hn::Le(mz, hn::Zero(d)), ExpTimes<A>(d, high, low, norm));
+  }
+
+  template <Care, Accuracy A, class D>
+  static HWY_INLINE Vec<D> Masking(D d, Vec<D> vx, Vec<D> vy, Vec<D> z, Vec<D> exponent) {
+    const Vec<D> s = Sqrt<A>(d, hn::MulAdd(vx, vx, hn::Mul(vy, vy)));
+    const Vec<D> factor = Sqrt<A>(d, hn::MulAdd(exponent, Const(d, 0.5), Const(d, 1)));
+    return Beckmann::RationalMaskingOf<A>(d, z, s, factor);
+  }
+
+  // Walter 2007 Eqs. 31, 32: cos = u1^(1/(exponent + 2)); pdf = D cos = (exponent + 2)/(2 pi) u1 / cos.
+  template <Accuracy A, class D>
+  static HWY_INLINE void SampleNormal(D d, Vec<D>& mx, Vec<D>& my, Vec<D>& mz, Vec<D>& pdf, Vec<D> u1,
+                                      Vec<D> u2, Vec<D> exponent) {
+    const Vec<D> one = Const(d, 1), zero = hn::Zero(d);
+    u1 = BelowOne(d, u1);
+    const Vec<D> n = hn::Add(exponent, Const(d, 2));
+    Vec<D> high, low;
+    InDouble2<RootOp>(d, high, low, u1, exponent);
+    const Vec<D> cos_m = Exp<A>(d, high, low);
+    // sin^2 = -expm1(2 log cos): by its series near the normal.
+    const Vec<D> x = hn::Add(high, high);
+    const Vec<D> series =
+        hn::Mul(x, hn::MulAdd(x,
+                              Polynomial(d, x,
+                                         {0.5, 1.0 / 6, 1.0 / 24, 1.0 / 120, 1.0 / 720, 1.0 / 5040,
+                                          1.0 / 40320, 1.0 / 362880, 1.0 / 3628800}),
+                              one));
+    const Vec<D> sin2 = hn::IfThenElse(hn::Gt(x, Const(d, -0.1)), hn::Sub(hn::Neg(series), hn::Add(low, low)),
+                                       hn::NegMulAdd(cos_m, cos_m, one));
+    Vec<D> sin_phi, cos_phi;
+    SinCos2Pi<A>(d, u2, sin_phi, cos_phi);
+    const Vec<D> sin_m = Sqrt<A>(d, hn::Max(sin2, zero));
+    const auto none = hn::Le(u1, zero);
+    mx = hn::Mul(sin_m, cos_phi);
+    my = hn::Mul(sin_m, sin_phi);
+    mz = ZeroIf(none, cos_m);
+    pdf = ZeroIf(none, hn::Mul(hn::Mul(n, Const(d, 0.5 / kPi)), Div<A>(d, u1, cos_m)));
+  }
+
+ private:
+  struct PowerOp {
+    template <class DD>
+    static HWY_INLINE void Run(DD dd, Vec<DD>& high, Vec<DD>& low, Vec<DD> mz, Vec<DD> exponent) {
+      const Vec<DD> log = Log<Accuracy::kStandard>(dd, hn::Max(mz, Const(dd, 0x1p-1000)));
+      // Beyond e^-2000 and e^2000 all is 0 or overflows; the limits keep what follows in range.
+      const Vec<DD> x = hn::Min(hn::Max(hn::Mul(exponent, log), Const(dd, -2000)), Const(dd, 2000));
+      SplitHigh(dd, x, high, low);
+    }
+  };
+  struct RootOp {
+    template <class DD>
+    static HWY_INLINE void Run(DD dd, Vec<DD>& high, Vec<DD>& low, Vec<DD> u1, Vec<DD> exponent) {
+      const Vec<DD> log = Log<Accuracy::kStandard>(dd, hn::Max(u1, Const(dd, 0x1p-1000)));
+      SplitHigh(dd, hn::Div(log, hn::Add(exponent, Const(dd, 2))), high, low);
+    }
+  };
+};
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace microlane
+HWY_AFTER_NAMESPACE();
+
+#endif  // MICROLANE_PHONG_INL_H_

@@ -1,0 +1,415 @@
+// The rough dielectric of Walter 2007 (Eqs. 19-21, 37-41) in lanes, over a distribution policy (Ggx,
+// Beckmann, Phong).
+//
+// With unnormalised H = i + e o (e = 1 for reflection, eta for transmission) and D(H/|H|) = K |H|^4,
+//   f_r |cos o| = F |H|^4 K / 4              * G/|i.n| * |o.n| / |o.n|
+//   f_t |cos o| = eta^2 |i.H| |o.H| (1-F) K  * G/|i.n|
+//   pdf_r       = K Hz |o.H|,   pdf_t = eta^2 K Hz |o.H|
+// so no vector is normalised, and one division serves F, K and G.
+#if defined(MICROLANE_ROUGH_DIELECTRIC_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef MICROLANE_ROUGH_DIELECTRIC_INL_H_
+#undef MICROLANE_ROUGH_DIELECTRIC_INL_H_
+#else
+#define MICROLANE_ROUGH_DIELECTRIC_INL_H_
+#endif
+
+#include "microlane/half_vector-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace microlane {
+namespace HWY_NAMESPACE {
+namespace {
+
+enum class Lobes { kReflection, kTransmission, kBoth };
+enum class JointMasking { kSeparable, kHeightCorrelated };  // Walter 2007 Eq. 23; Heitz 2014 Eq. 99
+
+// i.H, o.H, H.H and g^2 H.H of a half vector H.
+template <class D>
+HWY_INLINE void InterfaceTerms(D d, Vec<D>& ih, Vec<D>& oh, Vec<D>& h2, Vec<D>& g2, Vec<D> ix, Vec<D> iy,
+                               Vec<D> iz, Vec<D> ox, Vec<D> oy, Vec<D> oz, Vec<D> hx, Vec<D> hy, Vec<D> hz,
+                               Vec<D> eta) {
+  ih = Dot(ix, iy, iz, hx, hy, hz);
+  oh = Dot(ox, oy, oz, hx, hy, hz);
+  h2 = Dot(hx, hy, hz, hx, hy, hz);
+  g2 = hn::MulAdd(ih, ih, hn::Mul(EtaSquaredMinus1(d, eta), h2));
+}
+
+// i.H, o.H, s^2 H.H with s^2 = 1 - c^2, g^2 H.H and the exponent of D (as two numbers) for H = i + e o, for
+// double lanes.
+template <class Dist>
+struct InterfaceOp {
+  template <class DD, class... P>
+  static HWY_INLINE void Run(DD dd, Vec<DD>& ih, Vec<DD>& oh, Vec<DD>& s2, Vec<DD>& g2, Vec<DD>& log_high,
+                             Vec<DD>& log_low, Vec<DD> ix, Vec<DD> iy, Vec<DD> iz, Vec<DD> ox, Vec<DD> oy,
+                             Vec<DD> oz, Vec<DD> e, Vec<DD> eta, P... p) {
+    const Vec<DD> hx = hn::MulAdd(e, ox, ix), hy = hn::MulAdd(e, oy, iy), hz = hn::MulAdd(e, oz, iz);
+    Vec<DD> h2;
+    InterfaceTerms(dd, ih, oh, h2, g2, ix, iy, iz, ox, oy, oz, hx, hy, hz, eta);
+    s2 = hn::NegMulAdd(ih, ih, h2);
+    if constexpr (Dist::kHasExponent) {
+      SplitHigh(dd, Dist::LogDensity(dd, hx, hy, hz, p...), log_high, log_low);
+    } else {
+      log_high = log_low = h2;
+    }
+  }
+};
+
+// Out of line: few lanes need it.
+template <class Dist, class D, class... In>
+HWY_NOINLINE void InterfaceInDouble(D d, Vec<D>& ih, Vec<D>& oh, Vec<D>& s2, Vec<D>& g2, In... in) {
+  Vec<D> high, low;
+  InDouble6<InterfaceOp<Dist>>(d, ih, oh, s2, g2, high, low, in...);
+}
+
+// a + a_tail += x (h + h_tail), to twice the working precision.
+template <class D>
+HWY_INLINE void AddProduct(D d, Vec<D>& a, Vec<D>& a_tail, Vec<D> x, Vec<D> h, Vec<D> h_tail) {
+  Vec<D> p, p_tail, s, s_tail;
+  TwoProduct(d, x, h, p, p_tail);
+  TwoSum(a, p, s, s_tail);
+  a = s;
+  a_tail = hn::Add(a_tail, hn::Add(s_tail, hn::MulAdd(x, h_tail, p_tail)));
+}
+
+// InterfaceTerms to twice the working precision, of H = scale (i + e o): at the critical angle, where g^2 may
+// have nothing left of either term, and where a facet is seen edge-on. Out of line: few lanes need it.
+template <class D>
+HWY_NOINLINE void InterfaceTermsTwice(D d, Vec<D>& ih, Vec<D>& oh, Vec<D>& h2, Vec<D>& g2, Vec<D> ix,
+                                      Vec<D> iy, Vec<D> iz, Vec<D> ox, Vec<D> oy, Vec<D> oz, Vec<D> e,
+                                      Vec<D> eta, Vec<D> scale) {
+  const Vec<D> zero = hn::Zero(d);
+  Vec<D> ih_tail = zero, oh_tail = zero, h2_tail = zero;
+  ih = oh = h2 = zero;
+  const auto component = [&](Vec<D> i, Vec<D> o) HWY_ATTR {
+    Vec<D> p, p_tail, s, s_tail, h, h_tail;
+    TwoProduct(d, e, o, p, p_tail);
+    TwoSum(p, i, s, s_tail);
+    FastTwoSum(s, hn::Add(s_tail, p_tail), h, h_tail);
+    h = hn::Mul(h, scale);
+    h_tail = hn::Mul(h_tail, scale);
+    AddProduct(d, ih, ih_tail, i, h, h_tail);
+    AddProduct(d, oh, oh_tail, o, h, h_tail);
+    AddProduct(d, h2, h2_tail, h, h, hn::Add(h_tail, h_tail));
+  };
+  component(ix, ox);
+  component(iy, oy);
+  component(iz, oz);
+  Vec<D> e2, e2_tail, k, k_tail, m, m_tail, q, q_tail, s, s_tail, i1, i1_tail;
+  TwoProduct(d, eta, eta, e2, e2_tail);
+  TwoSum(e2, Const(d, -1), k, k_tail);
+  k_tail = hn::Add(k_tail, e2_tail);
+  TwoSum(ih, ih_tail, i1, i1_tail);
+  TwoProduct(d, k, h2, m, m_tail);
+  TwoProduct(d, i1, i1, q, q_tail);
+  TwoSum(q, m, s, s_tail);
+  const Vec<D> tail = hn::Add(hn::MulAdd(k, h2_tail, hn::MulAdd(k_tail, h2, m_tail)),
+                              hn::MulAdd(hn::Add(i1, i1), i1_tail, q_tail));
+  g2 = hn::Add(s, hn::Add(s_tail, tail));
+  ih = i1;
+  oh = hn::Add(oh, oh_tail);
+  h2 = hn::Add(h2, h2_tail);
+}
+
+// G/|i.n| |o.n| = factor |o.n| / denominator, from z = |v.n| and mu = |v.n| (1 + 2 Lambda(v)).
+template <JointMasking kG, class V>
+HWY_INLINE V MaskingDenominator(V zi, V mu_i, V zo, V mu_o) {
+  if constexpr (kG == JointMasking::kHeightCorrelated) {
+    return hn::MulAdd(zo, mu_i, hn::Mul(zi, mu_o));
+  } else {
+    return hn::Mul(hn::Add(mu_i, zi), hn::Add(mu_o, zo));
+  }
+}
+template <JointMasking kG>
+constexpr double kMaskingFactor = kG == JointMasking::kHeightCorrelated ? 2 : 4;
+
+// Where the dot products have lost too much to cancellation: F depends on i.H by 4/g times its error; T and
+// the refracted value also on the relative errors of i.H, o.H and g. Below the critical angle g^2 is negative
+// and counts by its size. kG2, kC2: least g^2 and cos^2 that are still good.
+template <bool kFresnel, bool kCosines, class D>
+HWY_INLINE hn::Mask<D> IllConditioned(D d, double least_g2, double least_c2, Vec<D> ih, Vec<D> oh, Vec<D> h2,
+                                      Vec<D> g2) {
+  auto ill = hn::MaskFromVec(hn::Zero(d));
+  if constexpr (kFresnel) ill = hn::Lt(hn::Abs(g2), hn::Mul(h2, Const(d, least_g2)));
+  if constexpr (kCosines) {
+    const auto edge_on = hn::Lt(hn::Min(hn::Mul(ih, ih), hn::Mul(oh, oh)), hn::Mul(h2, Const(d, least_c2)));
+    ill = kFresnel ? hn::Or(ill, edge_on) : edge_on;
+  }
+  return ill;
+}
+
+// One pass. In float lanes `hard` marks the lanes that double lanes must do: some product may have
+// underflowed, or cancellation has taken more than InterfaceInDouble gives back.
+template <class Dist, Lobes kLobes, JointMasking kG, bool kValue, bool kPdf, Accuracy A, class D, class... P>
+HWY_INLINE void RoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& value, Vec<D>& pdf, hn::Mask<D>& hard,
+                                    Vec<D> ix, Vec<D> iy, Vec<D> iz, Vec<D> ox, Vec<D> oy, Vec<D> oz,
+                                    Vec<D> eta, P... p) {
+  constexpr bool kReflects = kLobes != Lobes::kTransmission, kTransmits = kLobes != Lobes::kReflection;
+  constexpr bool kWide = !kIsFloat<D>, kFast = A == Accuracy::kFast;
+  constexpr bool kNeedsFresnel = kValue || kLobes == Lobes::kBoth, kNeedsCosines = kTransmits || kPdf;
+  const Vec<D> zero = hn::Zero(d), one = Const(d, 1);
+  // i to the upper side.
+  oz = FlipSign(d, oz, iz);
+  iz = hn::Abs(iz);
+  const Vec<D> zo = kTransmits ? hn::Abs(oz) : oz;
+  const auto transmits = hn::Lt(oz, zero);
+  Vec<D> e = one;
+  if constexpr (kTransmits) e = kReflects ? hn::IfThenElse(transmits, eta, one) : eta;
+
+  Vec<D> hx, hy, hz, scale = one;
+  if constexpr (kTransmits) {
+    hx = hn::MulAdd(e, ox, ix);
+    hy = hn::MulAdd(e, oy, iy);
+    hz = hn::MulAdd(e, oz, iz);
+  } else {
+    hx = hn::Add(ox, ix);
+    hy = hn::Add(oy, iy);
+    hz = hn::Add(oz, iz);
+  }
+  if constexpr (kWide) {
+    scale = PowerOfTwoScale(d, hx, hy, hz);
+    hx = hn::Mul(hx, scale);
+    hy = hn::Mul(hy, scale);
+    hz = hn::Mul(hz, scale);
+  }
+
+  // s2: 1 - c^2, times H.H like g2. It cancels where c is near 1, which matters only together with a small g.
+  Vec<D> ih, oh, h2, s2, g2, log_high = zero, log_low = zero;
+  if constexpr (!kWide && !kFast && (Dist::kHasExponent || kNeedsCosines)) {
+    InDouble6<InterfaceOp<Dist>>(d, ih, oh, s2, g2, log_high, log_low, ix, iy, iz, ox, oy, oz, e, eta, p...);
+    h2 = hn::MulAdd(ih, ih, s2);
+  } else {
+    InterfaceTerms(d, ih, oh, h2, g2, ix, iy, iz, ox, oy, oz, hx, hy, hz, eta);
+    if constexpr (!kNeedsCosines && !kWide) oh = hn::Sub(h2, ih);
+    if constexpr (Dist::kHasExponent) log_high = Dist::LogDensity(d, hx, hy, hz, p...);
+    if constexpr (kWide) {
+      const auto ill = IllConditioned<kNeedsFresnel, kNeedsCosines>(d, 0x1p-18, 0x1p-40, ih, oh, h2, g2);
+      if (HWY_UNLIKELY(!hn::AllFalse(d, ill))) {
+        Vec<D> ih_, oh_, h2_, g2_;
+        InterfaceTermsTwice(d, ih_, oh_, h2_, g2_, ix, iy, iz, ox, oy, oz, e, eta, scale);
+        ih = hn::IfThenElse(ill, ih_, ih);
+        oh = hn::IfThenElse(ill, oh_, oh);
+        h2 = hn::IfThenElse(ill, h2_, h2);
+        g2 = hn::IfThenElse(ill, g2_, g2);
+      }
+    }
+    s2 = hn::NegMulAdd(ih, ih, h2);
+    if constexpr (!kWide && !kFast) {
+      const auto ill = IllConditioned<true, false>(d, 1, 0, ih, oh, h2, g2);
+      if (HWY_UNLIKELY(!hn::AllFalse(d, ill))) {
+        Vec<D> ih_, oh_, s2_, g2_;
+        InterfaceInDouble<Dist>(d, ih_, oh_, s2_, g2_, ix, iy, iz, ox, oy, oz, e, eta, p...);
+        ih = hn::IfThenElse(ill, ih_, ih);
+        oh = hn::IfThenElse(ill, oh_, oh);
+        s2 = hn::IfThenElse(ill, s2_, s2);
+        g2 = hn::IfThenElse(ill, g2_, g2);
+        hard = IllConditioned<true, false>(d, 0x1p-22, 0, ih, oh, h2, g2);
+      }
+    }
+  }
+  if constexpr (kFast && !kWide && !kNeedsCosines) {
+    hard = hn::Lt(hn::Abs(g2), Const(d, 0x1p-11));
+  } else if constexpr (!kWide && (kFast || Dist::kHasExponent || kNeedsCosines)) {
+    hard = IllConditioned<kNeedsFresnel, kNeedsCosines>(d, kFast ? 0x1p-9 : 0x1p-22,
+                                                        kFast ? 0x1p-17 : 0x1p-20, ih, oh, h2, g2);
+  }
+
+  // Sidedness (Walter 2007 Eq. 7), H taken as pointing to the upper side.
+  Vec<D> least = hn::Min(iz, zo);
+  if constexpr (kTransmits) {
+    const Vec<D> side_i = FlipSign(d, ih, hz), side_o = FlipSign(d, oh, hn::Xor(hz, oz));
+    hz = hn::Abs(hz);
+    least = hn::Min(hn::Min(least, hz), hn::Min(side_i, side_o));
+    ih = hn::Abs(ih);
+    oh = hn::Abs(oh);
+  } else {
+    least = hn::Min(least, hn::Min(ih, oh));
+  }
+  auto invalid = hn::Le(least, zero);
+  if constexpr (!kReflects) invalid = hn::Or(invalid, hn::Gt(oz, zero));
+
+  // K = w exp(log) / (pi density^2).
+  Vec<D> density, unused, w;
+  Dist::template Density<Care::kPlain>(d, density, unused, w, hx, hy, hz, p...);
+
+  // Fresnel, from squares times H.H; q = A M.
+  Vec<D> a = one, m = one, n = one, q = one, root = one;
+  const Vec<D> k = EtaSquaredMinus1(d, eta), eta2 = hn::Mul(eta, eta);
+  if constexpr (kNeedsFresnel) {
+    g2 = hn::Max(kFast ? Const(d, 1e-37) : zero, g2);
+    root = hn::Mul(ih, SqrtOfPositive<A>(d, g2));
+    FresnelTerms<kWide>(d, a, m, n, ih, g2, root, s2);
+    q = hn::Mul(a, m);
+  }
+
+  // masking: G/|i.n| |o.n| = kMaskingFactor zo / masking.
+  Vec<D> masking = one;
+  if constexpr (kValue) {
+    const Vec<D> mu_i = Dist::template Masking<Care::kPlain, A>(d, ix, iy, iz, p...);
+    const Vec<D> mu_o = Dist::template Masking<Care::kPlain, A>(d, ox, oy, zo, p...);
+    masking = MaskingDenominator<kG>(iz, mu_i, zo, mu_o);
+  }
+
+  // Everything is over (scaled q density)^2 masking, with k^2 (M^2 + N^2)/2 H.H^2 <= q^2 (reached under total
+  // internal reflection) and 2 p A (M^2 + eta^2 H.H^2) as the Fresnel factors F and T times q^2.
+  constexpr double kScale = kWide ? 1 : 0x1p15;
+  const Vec<D> dq = hn::Mul(hn::Mul(density, Const(d, kScale)), q);
+  const Vec<D> denominator = hn::Mul(hn::Mul(dq, dq), masking);
+  const Vec<D> h4 = hn::Mul(h2, h2);
+  Vec<D> fresnel = one;  // F or T (both lobes: that of the lane), times q^2
+  if constexpr (kNeedsFresnel) {
+    const Vec<D> m2 = hn::Mul(m, m);
+    Vec<D> f = one, t = one;
+    if constexpr (kReflects) {
+      const Vec<D> k2 = hn::Mul(hn::Mul(k, k), Const(d, 0.5));
+      f = hn::Min(hn::Mul(q, q), hn::Mul(hn::Mul(k2, h4), hn::MulAdd(n, n, m2)));
+    }
+    if constexpr (kTransmits) {
+      t = hn::Mul(hn::Mul(hn::Add(root, root), a), hn::MulAdd(eta2, h4, m2));
+    }
+    fresnel = kReflects && kTransmits ? hn::IfThenElse(transmits, t, f) : kReflects ? f : t;
+  }
+  const Vec<D> ws = hn::Mul(w, Const(d, kScale * kScale));
+  if constexpr (!kWide) {
+    // Factors whose products could leave the range. F q^2 also bounds H.H (for q <= 2^11 H.H^2), so that
+    // rounding has not changed the sign of i.H or o.H, which are H.H/2 for unit vectors.
+    Vec<D> low = hn::Min(ws, kNeedsFresnel && kReflects && !kTransmits ? fresnel : hn::Mul(h2, h4));
+    if constexpr (kValue) low = hn::Min(low, masking);
+    hard =
+        hn::Or(hard, hn::Or(hn::Lt(low, Const(d, 0x1p-42)), OutOfRange(d, denominator, 0x1p-70f, 0x1p120f)));
+  }
+  // What may be tiny of itself (a cosine) is multiplied last.
+  Vec<D> r = one;
+  if constexpr (kValue && kPdf) r = Reciprocal<A>(d, denominator);
+
+  if constexpr (kValue) {
+    // f_r |o.n| = F |H|^4 K/4 G/|i.n|, f_t |o.n| = eta^2 |i.H| |o.H| T K G/|i.n|.
+    constexpr double kFactor = kMaskingFactor<kG> / kPi * (kTransmits ? 1 : 0.25);
+    Vec<D> reflection = one, transmission = one;
+    if constexpr (kReflects) reflection = kTransmits ? hn::Mul(h4, Const(d, 0.25)) : h4;
+    if constexpr (kTransmits) {
+      const Vec<D> ihoh = kWide ? hn::Mul(hn::Mul(ih, scale), hn::Mul(oh, scale)) : hn::Mul(ih, oh);
+      transmission = hn::Mul(ihoh, hn::IfThenElse(radiance, eta2, one));
+    }
+    const Vec<D> x = kReflects && kTransmits ? hn::IfThenElse(transmits, transmission, reflection)
+                     : kReflects             ? reflection
+                                             : transmission;
+    const Vec<D> numerator = hn::Mul(hn::Mul(hn::Mul(ws, Const(d, kFactor)), x), fresnel);
+    value = hn::Mul(kPdf ? hn::Mul(numerator, r) : Div<A>(d, numerator, denominator), zo);
+    if constexpr (Dist::kHasExponent) value = ExpTimes<A>(d, log_high, log_low, value);
+    value = ZeroIf(invalid, value);
+  }
+  if constexpr (kPdf) {
+    // K Hz |o.H| (eta^2 and F or T where they apply).
+    Vec<D> x = hn::Mul(ws, Const(d, 1 / kPi));
+    if constexpr (kLobes == Lobes::kTransmission) {
+      x = hn::Mul(x, eta2);
+    } else if constexpr (kLobes == Lobes::kBoth) {
+      x = hn::Mul(x, hn::Mul(fresnel, hn::IfThenElse(transmits, eta2, one)));
+    } else {
+      invalid = hn::Or(invalid, transmits);
+    }
+    x = kValue ? hn::Mul(hn::Mul(x, masking), r) : Div<A>(d, x, denominator);
+    x = hn::Mul(hn::Mul(x, kWide ? hn::Mul(oh, scale) : oh), kWide ? hn::Mul(hz, scale) : hz);
+    if constexpr (Dist::kHasExponent) x = ExpTimes<A>(d, log_high, log_low, x);
+    pdf = ZeroIf(invalid, x);
+  }
+}
+
+// RoughDielectricPass in double lanes; `radiance` as a number, 1 or 0.
+template <class Dist, Lobes kLobes, JointMasking kG, bool kValue, bool kPdf>
+struct RoughDielectricOp {
+  template <class DD, class... In>
+  static HWY_INLINE void Run(DD dd, Vec<DD>& value, Vec<DD>& pdf, Vec<DD> radiance, In... in) {
+    hn::Mask<DD> none = hn::MaskFromVec(hn::Zero(dd));
+    value = pdf = hn::Zero(dd);
+    RoughDielectricPass<Dist, kLobes, kG, kValue, kPdf, Accuracy::kStandard>(
+        dd, hn::Gt(radiance, hn::Zero(dd)), value, pdf, none, in...);
+  }
+};
+
+// Out of line: few lanes need it.
+template <class Dist, Lobes kLobes, JointMasking kG, bool kValue, bool kPdf, class D, class... In>
+HWY_NOINLINE void RoughDielectricInDouble(D d, hn::Mask<D> radiance, Vec<D>& value, Vec<D>& pdf, In... in) {
+  InDouble2<RoughDielectricOp<Dist, kLobes, kG, kValue, kPdf>>(
+      d, value, pdf, hn::IfThenElseZero(radiance, Const(d, 1)), in...);
+}
+
+// f |cos o| into `value` if kValue, the density of o into `pdf` if kPdf. `radiance`: mask of
+// Transport::kRadiance. in: ix, iy, iz, ox, oy, oz, eta, then the distribution's parameters.
+template <class Dist, Lobes kLobes, JointMasking kG, bool kValue, bool kPdf, Accuracy A, class D, class... In>
+HWY_INLINE void RoughDielectric(D d, hn::Mask<D> radiance, Vec<D>& value, Vec<D>& pdf, In... in) {
+  hn::Mask<D> hard = hn::MaskFromVec(hn::Zero(d));
+  RoughDielectricPass<Dist, kLobes, kG, kValue, kPdf, A>(d, radiance, value, pdf, hard, in...);
+  if (kIsFloat<D> && HWY_UNLIKELY(!hn::AllFalse(d, hard))) {
+    Vec<D> hard_value, hard_pdf;
+    RoughDielectricInDouble<Dist, kLobes, kG, kValue, kPdf>(d, radiance, hard_value, hard_pdf, in...);
+    if constexpr (kValue) value = hn::IfThenElse(hard, hard_value, value);
+    if constexpr (kPdf) pdf = hn::IfThenElse(hard, hard_pdf, pdf);
+  }
+}
+
+// Walter 2007 section 5.3: m by Dist's D cos sampling, the lobe by Fresnel, o by Eq. 39 or 40, the weight by
+// Eq. 41.
+template <class Dist, JointMasking kG, Accuracy A, class D, class... P>
+HWY_INLINE void SampleRoughDielectric(D d, hn::Mask<D> radiance, Vec<D>& ox, Vec<D>& oy, Vec<D>& oz,
+                                      Vec<D>& weight, Vec<D>& pdf, Vec<D>& lobe, Vec<D> ix, Vec<D> iy,
+                                      Vec<D> iz_signed, Vec<D> u1, Vec<D> u2, Vec<D> u3, Vec<D> eta, P... p) {
+  const Vec<D> zero = hn::Zero(d), one = Const(d, 1);
+  const Vec<D> iz = hn::Abs(iz_signed);
+  Vec<D> mx, my, mz, pdf_m;
+  Dist::template SampleNormal<A>(d, mx, my, mz, pdf_m, u1, u2, p...);
+  // Below the surface the whole is turned over: m -> -m, then z -> -z.
+  mx = FlipSign(d, mx, iz_signed);
+  my = FlipSign(d, my, iz_signed);
+  const Vec<D> c = Dot(ix, iy, iz, mx, my, mz);
+  const Vec<D> eta2 = hn::Mul(eta, eta), k = EtaSquaredMinus1(d, eta);
+  Vec<D> g2, unused;
+  InDouble2<GSquaredOp>(d, g2, unused, c, eta);
+  g2 = hn::IfThenElse(hn::Lt(g2, zero), zero, g2);
+  const Vec<D> g = Sqrt<A>(d, g2), root = hn::Mul(c, g);
+  Vec<D> a, m, n;
+  FresnelTerms<true>(d, a, m, n, c, g2, root, hn::NegMulAdd(c, c, one));
+  const Vec<D> q = hn::Mul(a, m), r = Reciprocal<A>(d, q), kr = hn::Mul(k, r), m2 = hn::Mul(m, m);
+  const Vec<D> km = hn::Mul(kr, m), kn = hn::Mul(kr, n);
+  const Vec<D> reflectance = hn::Min(one, hn::Mul(Const(d, 0.5), hn::MulAdd(km, km, hn::Mul(kn, kn))));
+  const Vec<D> transmittance =
+      hn::Mul(hn::Mul(hn::Mul(hn::Add(root, root), a), hn::Add(m2, eta2)), hn::Mul(r, r));
+
+  const auto reflects = hn::Lt(u3, reflectance);
+  // o = s m - t i: s = 2 c, t = 1, or s = (c - g)/eta = -(eta^2 - 1)/(eta (c + g)), t = 1/eta.
+  const Vec<D> gc = hn::Add(g, c);
+  const Vec<D> r_eta = Reciprocal<A>(d, hn::Mul(eta, gc));
+  const Vec<D> s = hn::IfThenElse(reflects, hn::Add(c, c), hn::Neg(hn::Mul(k, r_eta)));
+  const Vec<D> t = hn::IfThenElse(reflects, one, hn::Mul(gc, r_eta));
+  ox = hn::MulSub(s, mx, hn::Mul(t, ix));
+  oy = hn::MulSub(s, my, hn::Mul(t, iy));
+  oz = hn::MulSub(s, mz, hn::Mul(t, iz));
+  const Vec<D> zo = hn::Abs(oz);
+  const auto wrong_side = hn::IfThenElse(reflects, oz, hn::Neg(oz));
+  const auto invalid = hn::Or(hn::Le(hn::Min(c, hn::Min(iz, mz)), zero), hn::Le(wrong_side, zero));
+
+  const Vec<D> mu_i = Dist::template Masking<Care::kPlain, A>(d, ix, iy, iz, p...);
+  const Vec<D> mu_o = Dist::template Masking<Care::kPlain, A>(d, ox, oy, zo, p...);
+  const Vec<D> masking = MaskingDenominator<kG>(iz, mu_i, zo, mu_o);
+  const Vec<D> numerator = hn::Mul(hn::Mul(Const(d, kMaskingFactor<kG>), zo), c);
+  // Radiance takes Eq. 41 as it is; importance loses the eta^2 of transmission.
+  const Vec<D> lobe_factor = hn::IfThenElse(hn::Or(reflects, radiance), one, eta2);
+  weight = ZeroIf(invalid, Div<A>(d, numerator, hn::Mul(hn::Mul(mz, masking), lobe_factor)));
+  // Jacobians of Eqs. 14 and 17: 1/(4 c), and eta^2 (g/eta) / (c - g)^2 with c - g = -(eta^2 - 1)/(g + c).
+  const Vec<D> gc_over_k = hn::Mul(gc, gc);
+  const Vec<D> jacobian = Div<A>(d, hn::IfThenElse(reflects, one, hn::Mul(hn::Mul(eta, g), gc_over_k)),
+                                 hn::IfThenElse(reflects, hn::Mul(Const(d, 4), c), hn::Mul(k, k)));
+  pdf = ZeroIf(invalid,
+               hn::Mul(hn::Mul(pdf_m, jacobian), hn::IfThenElse(reflects, reflectance, transmittance)));
+  ox = ZeroIf(invalid, ox);
+  oy = ZeroIf(invalid, oy);
+  oz = ZeroIf(invalid, FlipSign(d, oz, iz_signed));
+  lobe = ZeroIf(invalid, hn::IfThenElse(reflects, one, Const(d, 2)));
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace microlane
+HWY_AFTER_NAMESPACE();
+
+#endif  // MICROLANE_ROUGH_DIELECTRIC_INL_H_

@@ -1,0 +1,173 @@
+// The rough dielectric interface of Walter 2007 in batches: value, density, both in one call, sampling.
+//
+// All functions work on n lanes of float or double and are thread-safe. Errors are those that the kernel list
+// declares for the id named with each function, <namespace>.<id>; NaN in gives NaN out in that lane.
+//
+// Light comes from wi and leaves to wo. On the same side of the surface it is reflected, on opposite sides
+// transmitted. Either may be below the surface; eta is the index on wo's side over that on wi's side in
+// transmission. Values f_cos = f |cos(theta_o)| and densities pdf are in 1/sr, and 0 where a direction lies
+// in the surface, where the facet that scatters is not seen from its front, and under total internal
+// reflection.
+#ifndef MICROLANE_ROUGH_DIELECTRIC_H_
+#define MICROLANE_ROUGH_DIELECTRIC_H_
+
+#include <cstddef>
+
+#include "microlane/packets.h"
+
+namespace microlane {
+
+// How the masking of wi and wo combine.
+enum class JointMasking {
+  kHeightCorrelated,  // 1/(1 + Lambda(wi) + Lambda(wo)), Heitz 2014 Eq. 99
+  kSeparable,         // G1(wi) G1(wo), Walter 2007 Eq. 23
+};
+
+// A surface with GGX or Beckmann normals. Each is one value or one per lane.
+template <class T>
+struct DielectricParameters {
+  Parameter<T> alpha_x;  // 1e-5 to 100
+  Parameter<T> alpha_y;  // 1e-5 to 100
+  Parameter<T> eta;      // transmitted over incident index, 1/4 to 4
+};
+template <class T>
+using DielectricParametersOf = typename packets_internal::NotDeduced<DielectricParameters<T>>::Type;
+
+// A surface with Phong normals.
+template <class T>
+struct PhongDielectricParameters {
+  Parameter<T> exponent;  // 0 to 2e10
+  Parameter<T> eta;       // transmitted over incident index, 1/4 to 4
+};
+template <class T>
+using PhongDielectricParametersOf = typename packets_internal::NotDeduced<PhongDielectricParameters<T>>::Type;
+
+// What sampling gives. Lobe 0: no direction was found, and every output is 0.
+template <class T>
+struct DielectricSamples {
+  MutableDirections<T> wo;
+  T* weight;  // f |cos(theta_o)| / pdf in closed form
+  T* pdf;     // density of wo, in 1/sr, with the choice of the lobe
+  T* lobe;    // 0 none, 1 reflection, 2 transmission
+};
+
+// GGX normals.
+namespace rough_dielectric {
+
+// Reflection and transmission. Walter 2007 Eqs. 19-21. eval, eval_separable.
+template <class T>
+void Eval(std::size_t n, const DirectionsOf<T>& wi, const DirectionsOf<T>& wo,
+          const DielectricParametersOf<T>& surface, T* f_cos, Accuracy accuracy = Accuracy::kStandard,
+          Transport transport = Transport::kRadiance, JointMasking masking = JointMasking::kHeightCorrelated);
+
+// Reflection alone; 0 for opposite sides. Walter 2007 Eq. 20. eval_reflection, eval_reflection_separable.
+template <class T>
+void EvalReflection(std::size_t n, const DirectionsOf<T>& wi, const DirectionsOf<T>& wo,
+                    const DielectricParametersOf<T>& surface, T* f_cos,
+                    Accuracy accuracy = Accuracy::kStandard,
+                    JointMasking masking = JointMasking::kHeightCorrelated);
+
+// Transmission alone; 0 for the same side. Walter 2007 Eq. 21. eval_transmission,
+// eval_transmission_separable.
+template <class T>
+void EvalTransmission(std::size_t n, const DirectionsOf<T>& wi, const DirectionsOf<T>& wo,
+                      const DielectricParametersOf<T>& surface, T* f_cos,
+                      Accuracy accuracy = Accuracy::kStandard, Transport transport = Transport::kRadiance,
+                      JointMasking masking = JointMasking::kHeightCorrelated);
+
+// Density with which Sample finds wo: D cos sampling of normals, choice of the lobe by Fresnel. Walter 2007
+// Eqs. 24, 38, section 5.3. pdf.
+template <class T>
+void Pdf(std::size_t n, const DirectionsOf<T>& wi, const DirectionsOf<T>& wo,
+         const DielectricParametersOf<T>& surface, T* pdf, Accuracy accuracy = Accuracy::kStandard);
+
+// Density where normals sampled by D cos only reflect. Walter 2007 Eqs. 14, 24, 38. pdf_reflection.
+template <class T>
+void PdfReflection(std::size_t n, const DirectionsOf<T>& wi, const DirectionsOf<T>& wo,
+                   const DielectricParametersOf<T>& surface, T* pdf, Accuracy accuracy = Accuracy::kStandard);
+
+// Density where normals sampled by D cos only refract. Walter 2007 Eqs. 17, 24, 38. pdf_transmission.
+template <class T>
+void PdfTransmission(std::size_t n, const DirectionsOf<T>& wi, const DirectionsOf<T>& wo,
+                     const DielectricParametersOf<T>& surface, T* pdf,
+                     Accuracy accuracy = Accuracy::kStandard);
+
+// Eval and Pdf in one call. eval_pdf, eval_pdf_separable.
+template <class T>
+void EvalPdf(std::size_t n, const DirectionsOf<T>& wi, const DirectionsOf<T>& wo,
+             const DielectricParametersOf<T>& surface, T* f_cos, T* pdf,
+             Accuracy accuracy = Accuracy::kStandard, Transport transport = Transport::kRadiance,
+             JointMasking masking = JointMasking::kHeightCorrelated);
+
+// Directions wo from uniform numbers in [0, 1): u1 and u2 find a normal, u3 the lobe. Walter 2007
+// section 5.3, Eqs. 35-41. sample, sample_separable.
+template <class T>
+void Sample(std::size_t n, const DirectionsOf<T>& wi, const T* u1, const T* u2, const T* u3,
+            const DielectricParametersOf<T>& surface, const DielectricSamples<T>& samples,
+            Accuracy accuracy = Accuracy::kStandard, Transport transport = Transport::kRadiance,
+            JointMasking masking = JointMasking::kHeightCorrelated);
+
+}  // namespace rough_dielectric
+
+// Beckmann normals. See rough_dielectric for what each function gives; without a choice of masking, masking
+// is height-correlated.
+namespace rough_dielectric_beckmann {
+
+template <class T>
+void Eval(std::size_t n, const DirectionsOf<T>& wi, const DirectionsOf<T>& wo,
+          const DielectricParametersOf<T>& surface, T* f_cos, Accuracy accuracy = Accuracy::kStandard,
+          Transport transport = Transport::kRadiance, JointMasking masking = JointMasking::kHeightCorrelated);
+template <class T>
+void EvalReflection(std::size_t n, const DirectionsOf<T>& wi, const DirectionsOf<T>& wo,
+                    const DielectricParametersOf<T>& surface, T* f_cos,
+                    Accuracy accuracy = Accuracy::kStandard);
+template <class T>
+void EvalTransmission(std::size_t n, const DirectionsOf<T>& wi, const DirectionsOf<T>& wo,
+                      const DielectricParametersOf<T>& surface, T* f_cos,
+                      Accuracy accuracy = Accuracy::kStandard, Transport transport = Transport::kRadiance);
+template <class T>
+void Pdf(std::size_t n, const DirectionsOf<T>& wi, const DirectionsOf<T>& wo,
+         const DielectricParametersOf<T>& surface, T* pdf, Accuracy accuracy = Accuracy::kStandard);
+template <class T>
+void EvalPdf(std::size_t n, const DirectionsOf<T>& wi, const DirectionsOf<T>& wo,
+             const DielectricParametersOf<T>& surface, T* f_cos, T* pdf,
+             Accuracy accuracy = Accuracy::kStandard, Transport transport = Transport::kRadiance);
+template <class T>
+void Sample(std::size_t n, const DirectionsOf<T>& wi, const T* u1, const T* u2, const T* u3,
+            const DielectricParametersOf<T>& surface, const DielectricSamples<T>& samples,
+            Accuracy accuracy = Accuracy::kStandard, Transport transport = Transport::kRadiance);
+
+}  // namespace rough_dielectric_beckmann
+
+// Phong normals, with Walter's recipe for their masking. See rough_dielectric for what each function gives;
+// without a choice of masking, masking is height-correlated.
+namespace rough_dielectric_phong {
+
+template <class T>
+void Eval(std::size_t n, const DirectionsOf<T>& wi, const DirectionsOf<T>& wo,
+          const PhongDielectricParametersOf<T>& surface, T* f_cos, Accuracy accuracy = Accuracy::kStandard,
+          Transport transport = Transport::kRadiance, JointMasking masking = JointMasking::kHeightCorrelated);
+template <class T>
+void EvalReflection(std::size_t n, const DirectionsOf<T>& wi, const DirectionsOf<T>& wo,
+                    const PhongDielectricParametersOf<T>& surface, T* f_cos,
+                    Accuracy accuracy = Accuracy::kStandard);
+template <class T>
+void EvalTransmission(std::size_t n, const DirectionsOf<T>& wi, const DirectionsOf<T>& wo,
+                      const PhongDielectricParametersOf<T>& surface, T* f_cos,
+                      Accuracy accuracy = Accuracy::kStandard, Transport transport = Transport::kRadiance);
+template <class T>
+void Pdf(std::size_t n, const DirectionsOf<T>& wi, const DirectionsOf<T>& wo,
+         const PhongDielectricParametersOf<T>& surface, T* pdf, Accuracy accuracy = Accuracy::kStandard);
+template <class T>
+void EvalPdf(std::size_t n, const DirectionsOf<T>& wi, const DirectionsOf<T>& wo,
+             const PhongDielectricParametersOf<T>& surface, T* f_cos, T* pdf,
+             Accuracy accuracy = Accuracy::kStandard, Transport transport = Transport::kRadiance);
+template <class T>
+void Sample(std::size_t n, const DirectionsOf<T>& wi, const T* u1, const T* u2, const T* u3,
+            const PhongDielectricParametersOf<T>& surface, const DielectricSamples<T>& samples,
+            Accuracy accuracy = Accuracy::kStandard, Transport transport = Transport::kRadiance);
+
+}  // namespace rough_dielectric_phong
+}  // namespace microlane
+
+#endif  // MICROLANE_ROUGH_DIELECTRIC_H_

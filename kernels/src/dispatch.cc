@@ -1,0 +1,91 @@
+#include "src/dispatch.h"
+
+#include <atomic>
+#include <cctype>
+#include <cstdlib>
+
+#include "hwy/highway.h"
+#include "microlane/targets.h"
+
+namespace microlane {
+namespace {
+
+std::size_t TableIndex(std::int64_t target) {
+  hwy::ChosenTarget chosen;
+  chosen.Update(target);
+  return chosen.GetIndex();
+}
+
+std::int64_t TargetByName(std::string_view name) {
+  std::string upper(name);
+  for (char& c : upper) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    if (upper.empty() || upper == "BEST" || upper == hwy::TargetName(target)) return target;
+  }
+  return 0;
+}
+
+std::string UnknownTarget(std::string_view name) {
+  std::string message = "unknown target '" + std::string(name) + "'; this machine runs:";
+  for (const std::string& known : SupportedTargets()) message += " " + known;
+  return message;
+}
+
+std::int64_t InitialTarget() {
+  const char* name = std::getenv("MICROLANE_TARGET");
+  const std::int64_t target = name != nullptr ? TargetByName(name) : 0;
+  return target != 0 ? target : TargetByName("best");
+}
+
+struct Choice {
+  std::atomic<std::int64_t> target{InitialTarget()};
+  std::atomic<std::size_t> index{TableIndex(target)};
+};
+
+Choice& Chosen() {
+  static Choice choice;
+  return choice;
+}
+
+}  // namespace
+
+std::vector<std::string> SupportedTargets() {
+  std::vector<std::string> names;
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) names.emplace_back(hwy::TargetName(target));
+  return names;
+}
+
+std::string ChosenTarget() { return hwy::TargetName(Chosen().target.load()); }
+
+std::string ChooseTarget(std::string_view name) {
+  const std::int64_t target = TargetByName(name);
+  if (target == 0) return UnknownTarget(name);
+  Chosen().target.store(target);
+  Chosen().index.store(TableIndex(target));
+  return "";
+}
+
+std::string TargetEnvironmentError() {
+  const char* name = std::getenv("MICROLANE_TARGET");
+  return name == nullptr || TargetByName(name) != 0 ? "" : "MICROLANE_TARGET: " + UnknownTarget(name);
+}
+
+bool TargetHasFma(std::string_view name) {
+  const std::int64_t target = TargetByName(name);
+#if HWY_ARCH_X86
+  return target != 0 && target <= HWY_AVX2;
+#else
+  return target != HWY_SCALAR && target != HWY_EMU128;
+#endif
+}
+
+std::size_t ChosenTableIndex() { return Chosen().index.load(std::memory_order_relaxed); }
+
+const KernelCode& FindKernel(const FamilyFunction* table, std::string_view id) {
+  const FamilyCode family = table[ChosenTableIndex()]();
+  std::size_t i = 0;
+  while (family.kernels[i].id != id) ++i;  // the caller names a kernel of this family
+  return family.kernels[i];
+}
+
+}  // namespace microlane

@@ -1,0 +1,87 @@
+// From a public call to the chosen target's code. Includes no Highway.
+#ifndef MICROLANE_SRC_DISPATCH_H_
+#define MICROLANE_SRC_DISPATCH_H_
+
+#include <cstddef>
+#include <string_view>
+
+#include "microlane/packets.h"
+
+namespace microlane {
+
+// One kernel on one target.
+struct KernelCode {
+  std::string_view id;
+  void (*standard)(const Call<float>&, std::size_t);
+  void (*fast)(const Call<float>&, std::size_t);
+  void (*high)(const Call<float>&, std::size_t);
+  void (*double_lanes)(const Call<double>&, std::size_t);
+};
+
+// One family of kernels on one target.
+struct FamilyCode {
+  const KernelCode* kernels;
+  std::size_t count;
+};
+
+using FamilyFunction = FamilyCode (*)();
+
+// Index of the chosen target in the tables that HWY_EXPORT makes.
+std::size_t ChosenTableIndex();
+
+// The code of `id` within a family's dispatch table.
+const KernelCode& FindKernel(const FamilyFunction* table, std::string_view id);
+
+inline void Run(const KernelCode& code, Accuracy accuracy, const Call<float>& call, std::size_t n) {
+  (accuracy == Accuracy::kHigh ? code.high : accuracy == Accuracy::kFast ? code.fast : code.standard)(call, n);
+}
+inline void Run(const KernelCode& code, Accuracy, const Call<double>& call, std::size_t n) {
+  code.double_lanes(call, n);
+}
+
+// Each family's dispatch table.
+const FamilyFunction* MathTable();
+const FamilyFunction* GgxTable();
+const FamilyFunction* BeckmannTable();
+const FamilyFunction* PhongTable();
+const FamilyFunction* FresnelTable();
+const FamilyFunction* HalfVectorTable();
+const FamilyFunction* RoughDielectricGgxTable();
+const FamilyFunction* RoughDielectricBeckmannTable();
+const FamilyFunction* RoughDielectricPhongTable();
+
+// Builds a Call from a public function's arguments, in the kernel list's order.
+template <class T>
+class CallBuilder {
+ public:
+  CallBuilder& In(const T* lanes) {
+    call_.in[inputs_++] = lanes;
+    return *this;
+  }
+  CallBuilder& In(const Directions<T>& v) { return In(v.x).In(v.y).In(v.z); }
+  // The parameter must outlive the call.
+  CallBuilder& In(const Parameter<T>& p) {
+    call_.uniform[inputs_] = p.uniform();
+    return In(p.data());
+  }
+  CallBuilder& Out(T* lanes) {
+    call_.out[outputs_++] = lanes;
+    return *this;
+  }
+  CallBuilder& Out(const MutableDirections<T>& v) { return Out(v.x).Out(v.y).Out(v.z); }
+  CallBuilder& With(Transport transport) {
+    call_.transport = transport;
+    return *this;
+  }
+  void Run(const FamilyFunction* table, std::string_view id, Accuracy accuracy, std::size_t n) const {
+    microlane::Run(FindKernel(table, id), accuracy, call_, n);
+  }
+
+ private:
+  Call<T> call_;
+  int inputs_ = 0, outputs_ = 0;
+};
+
+}  // namespace microlane
+
+#endif  // MICROLANE_SRC_DISPATCH_H_

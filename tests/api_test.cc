@@ -1,0 +1,349 @@
+// The typed batch calls, the checked materials and the choice of a target.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <limits>
+#include <random>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "microlane/kernels.h"
+#include "microlane/microlane.h"
+
+namespace microlane {
+namespace {
+
+constexpr std::size_t kLanes = 67;
+
+// Arguments by position, as the kernel list orders them.
+template <class T>
+struct Arguments {
+  std::size_t n;
+  std::vector<T> in[kMaxInputs];
+  bool uniform[kMaxInputs] = {};
+  std::vector<T> out[kMaxOutputs];
+  Accuracy accuracy;
+  Transport transport;
+
+  const T* Lanes(int k) const { return in[k].data(); }
+  Directions<T> Direction(int k) const { return {in[k].data(), in[k + 1].data(), in[k + 2].data()}; }
+  Parameter<T> Value(int k) const { return uniform[k] ? Parameter<T>(in[k][0]) : Parameter<T>(in[k].data()); }
+  T* Out(int k) { return out[k].data(); }
+  MutableDirections<T> OutDirection(int k) { return {Out(k), Out(k + 1), Out(k + 2)}; }
+  DielectricParameters<T> Dielectric(int k) const { return {Value(k), Value(k + 1), Value(k + 2)}; }
+  PhongDielectricParameters<T> PhongDielectric(int k) const { return {Value(k), Value(k + 1)}; }
+  DielectricSamples<T> Samples() { return {OutDirection(0), Out(3), Out(4), Out(5)}; }
+};
+
+template <class T>
+struct Row {
+  std::string_view id;
+  void (*run)(Arguments<T>& a);
+};
+
+constexpr JointMasking kCorrelated = JointMasking::kHeightCorrelated, kSeparable = JointMasking::kSeparable;
+
+// Every typed function.
+template <class T>
+const std::vector<Row<T>>& Rows() {
+  using A = Arguments<T>;
+  namespace ggx_dielectric = rough_dielectric;
+  namespace beckmann_dielectric = rough_dielectric_beckmann;
+  namespace phong_dielectric = rough_dielectric_phong;
+  // clang-format off
+  static const std::vector<Row<T>> rows = {
+      {"ggx.D", [](A& a) { ggx::D(a.n, a.Direction(0), a.Value(3), a.Value(4), a.Out(0), a.accuracy); }},
+      {"ggx.D_isotropic", [](A& a) { ggx::D(a.n, a.Direction(0), a.Value(3), a.Out(0), a.accuracy); }},
+      {"ggx.Lambda", [](A& a) { ggx::Lambda(a.n, a.Direction(0), a.Value(3), a.Value(4), a.Out(0), a.accuracy); }},
+      {"ggx.Lambda_isotropic", [](A& a) { ggx::Lambda(a.n, a.Direction(0), a.Value(3), a.Out(0), a.accuracy); }},
+      {"ggx.G1", [](A& a) { ggx::G1(a.n, a.Direction(0), a.Direction(3), a.Value(6), a.Value(7), a.Out(0), a.accuracy); }},
+      {"ggx.G1_isotropic", [](A& a) { ggx::G1(a.n, a.Direction(0), a.Direction(3), a.Value(6), a.Out(0), a.accuracy); }},
+      {"ggx.sample_normal", [](A& a) { ggx::SampleNormal(a.n, a.Lanes(0), a.Lanes(1), a.Value(2), a.Value(3), a.OutDirection(0), a.Out(3), a.accuracy); }},
+
+      {"beckmann.D", [](A& a) { beckmann::D(a.n, a.Direction(0), a.Value(3), a.Value(4), a.Out(0), a.accuracy); }},
+      {"beckmann.D_isotropic", [](A& a) { beckmann::D(a.n, a.Direction(0), a.Value(3), a.Out(0), a.accuracy); }},
+      {"beckmann.Lambda", [](A& a) { beckmann::Lambda(a.n, a.Direction(0), a.Value(3), a.Value(4), a.Out(0), a.accuracy); }},
+      {"beckmann.Lambda_isotropic", [](A& a) { beckmann::Lambda(a.n, a.Direction(0), a.Value(3), a.Out(0), a.accuracy); }},
+      {"beckmann.G1", [](A& a) { beckmann::G1(a.n, a.Direction(0), a.Direction(3), a.Value(6), a.Value(7), a.Out(0), a.accuracy); }},
+      {"beckmann.G1_isotropic", [](A& a) { beckmann::G1(a.n, a.Direction(0), a.Direction(3), a.Value(6), a.Out(0), a.accuracy); }},
+      {"beckmann.G1_rational", [](A& a) { beckmann::G1Rational(a.n, a.Direction(0), a.Direction(3), a.Value(6), a.Value(7), a.Out(0), a.accuracy); }},
+      {"beckmann.sample_normal", [](A& a) { beckmann::SampleNormal(a.n, a.Lanes(0), a.Lanes(1), a.Value(2), a.Value(3), a.OutDirection(0), a.Out(3), a.accuracy); }},
+      {"beckmann.sample_normal_widened", [](A& a) { beckmann::SampleNormalWidened(a.n, a.Lanes(0), a.Lanes(1), a.Lanes(2), a.Value(3), a.Value(4), a.OutDirection(0), a.Out(3), a.accuracy); }},
+
+      {"phong.exponent", [](A& a) { phong::Exponent(a.n, a.Lanes(0), a.Out(0), a.accuracy); }},
+      {"phong.D", [](A& a) { phong::D(a.n, a.Direction(0), a.Value(3), a.Out(0), a.accuracy); }},
+      {"phong.G1", [](A& a) { phong::G1(a.n, a.Direction(0), a.Direction(3), a.Value(6), a.Out(0), a.accuracy); }},
+      {"phong.sample_normal", [](A& a) { phong::SampleNormal(a.n, a.Lanes(0), a.Lanes(1), a.Value(2), a.OutDirection(0), a.Out(3), a.accuracy); }},
+
+      {"fresnel.dielectric", [](A& a) { fresnel::Dielectric(a.n, a.Lanes(0), a.Value(1), a.Out(0), a.accuracy); }},
+      {"fresnel.dielectric_transmittance", [](A& a) { fresnel::DielectricTransmittance(a.n, a.Lanes(0), a.Value(1), a.Out(0), a.accuracy); }},
+      {"fresnel.dielectric_s", [](A& a) { fresnel::DielectricS(a.n, a.Lanes(0), a.Value(1), a.Out(0), a.accuracy); }},
+      {"fresnel.dielectric_p", [](A& a) { fresnel::DielectricP(a.n, a.Lanes(0), a.Value(1), a.Out(0), a.accuracy); }},
+
+      {"half_vector.reflection", [](A& a) { half_vector::Reflection(a.n, a.Direction(0), a.Direction(3), a.OutDirection(0), a.accuracy); }},
+      {"half_vector.reflection_jacobian", [](A& a) { half_vector::ReflectionJacobian(a.n, a.Direction(0), a.Direction(3), a.Out(0), a.accuracy); }},
+      {"half_vector.reflection_jacobian_cos", [](A& a) { half_vector::ReflectionJacobian(a.n, a.Lanes(0), a.Out(0), a.accuracy); }},
+      {"half_vector.refraction", [](A& a) { half_vector::Refraction(a.n, a.Direction(0), a.Direction(3), a.Value(6), a.OutDirection(0), a.accuracy); }},
+      {"half_vector.refraction_jacobian", [](A& a) { half_vector::RefractionJacobian(a.n, a.Direction(0), a.Direction(3), a.Value(6), a.Out(0), a.accuracy); }},
+      {"half_vector.refraction_jacobian_cos", [](A& a) { half_vector::RefractionJacobian(a.n, a.Lanes(0), a.Lanes(1), a.Value(2), a.Out(0), a.accuracy); }},
+      {"reflect", [](A& a) { Reflect(a.n, a.Direction(0), a.Direction(3), a.OutDirection(0), a.accuracy); }},
+      {"refract", [](A& a) { Refract(a.n, a.Direction(0), a.Direction(3), a.Value(6), a.OutDirection(0), a.accuracy); }},
+
+      {"rough_dielectric.eval", [](A& a) { ggx_dielectric::Eval(a.n, a.Direction(0), a.Direction(3), a.Dielectric(6), a.Out(0), a.accuracy, a.transport, kCorrelated); }},
+      {"rough_dielectric.eval_separable", [](A& a) { ggx_dielectric::Eval(a.n, a.Direction(0), a.Direction(3), a.Dielectric(6), a.Out(0), a.accuracy, a.transport, kSeparable); }},
+      {"rough_dielectric.eval_reflection", [](A& a) { ggx_dielectric::EvalReflection(a.n, a.Direction(0), a.Direction(3), a.Dielectric(6), a.Out(0), a.accuracy, kCorrelated); }},
+      {"rough_dielectric.eval_reflection_separable", [](A& a) { ggx_dielectric::EvalReflection(a.n, a.Direction(0), a.Direction(3), a.Dielectric(6), a.Out(0), a.accuracy, kSeparable); }},
+      {"rough_dielectric.eval_transmission", [](A& a) { ggx_dielectric::EvalTransmission(a.n, a.Direction(0), a.Direction(3), a.Dielectric(6), a.Out(0), a.accuracy, a.transport, kCorrelated); }},
+      {"rough_dielectric.eval_transmission_separable", [](A& a) { ggx_dielectric::EvalTransmission(a.n, a.Direction(0), a.Direction(3), a.Dielectric(6), a.Out(0), a.accuracy, a.transport, kSeparable); }},
+      {"rough_dielectric.pdf", [](A& a) { ggx_dielectric::Pdf(a.n, a.Direction(0), a.Direction(3), a.Dielectric(6), a.Out(0), a.accuracy); }},
+      {"rough_dielectric.pdf_reflection", [](A& a) { ggx_dielectric::PdfReflection(a.n, a.Direction(0), a.Direction(3), a.Dielectric(6), a.Out(0), a.accuracy); }},
+      {"rough_dielectric.pdf_transmission", [](A& a) { ggx_dielectric::PdfTransmission(a.n, a.Direction(0), a.Direction(3), a.Dielectric(6), a.Out(0), a.accuracy); }},
+      {"rough_dielectric.eval_pdf", [](A& a) { ggx_dielectric::EvalPdf(a.n, a.Direction(0), a.Direction(3), a.Dielectric(6), a.Out(0), a.Out(1), a.accuracy, a.transport, kCorrelated); }},
+      {"rough_dielectric.eval_pdf_separable", [](A& a) { ggx_dielectric::EvalPdf(a.n, a.Direction(0), a.Direction(3), a.Dielectric(6), a.Out(0), a.Out(1), a.accuracy, a.transport, kSeparable); }},
+      {"rough_dielectric.sample", [](A& a) { ggx_dielectric::Sample(a.n, a.Direction(0), a.Lanes(3), a.Lanes(4), a.Lanes(5), a.Dielectric(6), a.Samples(), a.accuracy, a.transport, kCorrelated); }},
+      {"rough_dielectric.sample_separable", [](A& a) { ggx_dielectric::Sample(a.n, a.Direction(0), a.Lanes(3), a.Lanes(4), a.Lanes(5), a.Dielectric(6), a.Samples(), a.accuracy, a.transport, kSeparable); }},
+
+      {"rough_dielectric_beckmann.eval", [](A& a) { beckmann_dielectric::Eval(a.n, a.Direction(0), a.Direction(3), a.Dielectric(6), a.Out(0), a.accuracy, a.transport, kCorrelated); }},
+      {"rough_dielectric_beckmann.eval_separable", [](A& a) { beckmann_dielectric::Eval(a.n, a.Direction(0), a.Direction(3), a.Dielectric(6), a.Out(0), a.accuracy, a.transport, kSeparable); }},
+      {"rough_dielectric_beckmann.eval_reflection", [](A& a) { beckmann_dielectric::EvalReflection(a.n, a.Direction(0), a.Direction(3), a.Dielectric(6), a.Out(0), a.accuracy); }},
+      {"rough_dielectric_beckmann.eval_transmission", [](A& a) { beckmann_dielectric::EvalTransmission(a.n, a.Direction(0), a.Direction(3), a.Dielectric(6), a.Out(0), a.accuracy, a.transport); }},
+      {"rough_dielectric_beckmann.pdf", [](A& a) { beckmann_dielectric::Pdf(a.n, a.Direction(0), a.Direction(3), a.Dielectric(6), a.Out(0), a.accuracy); }},
+      {"rough_dielectric_beckmann.eval_pdf", [](A& a) { beckmann_dielectric::EvalPdf(a.n, a.Direction(0), a.Direction(3), a.Dielectric(6), a.Out(0), a.Out(1), a.accuracy, a.transport); }},
+      {"rough_dielectric_beckmann.sample", [](A& a) { beckmann_dielectric::Sample(a.n, a.Direction(0), a.Lanes(3), a.Lanes(4), a.Lanes(5), a.Dielectric(6), a.Samples(), a.accuracy, a.transport); }},
+
+      {"rough_dielectric_phong.eval", [](A& a) { phong_dielectric::Eval(a.n, a.Direction(0), a.Direction(3), a.PhongDielectric(6), a.Out(0), a.accuracy, a.transport, kCorrelated); }},
+      {"rough_dielectric_phong.eval_separable", [](A& a) { phong_dielectric::Eval(a.n, a.Direction(0), a.Direction(3), a.PhongDielectric(6), a.Out(0), a.accuracy, a.transport, kSeparable); }},
+      {"rough_dielectric_phong.eval_reflection", [](A& a) { phong_dielectric::EvalReflection(a.n, a.Direction(0), a.Direction(3), a.PhongDielectric(6), a.Out(0), a.accuracy); }},
+      {"rough_dielectric_phong.eval_transmission", [](A& a) { phong_dielectric::EvalTransmission(a.n, a.Direction(0), a.Direction(3), a.PhongDielectric(6), a.Out(0), a.accuracy, a.transport); }},
+      {"rough_dielectric_phong.pdf", [](A& a) { phong_dielectric::Pdf(a.n, a.Direction(0), a.Direction(3), a.PhongDielectric(6), a.Out(0), a.accuracy); }},
+      {"rough_dielectric_phong.eval_pdf", [](A& a) { phong_dielectric::EvalPdf(a.n, a.Direction(0), a.Direction(3), a.PhongDielectric(6), a.Out(0), a.Out(1), a.accuracy, a.transport); }},
+      {"rough_dielectric_phong.sample", [](A& a) { phong_dielectric::Sample(a.n, a.Direction(0), a.Lanes(3), a.Lanes(4), a.Lanes(5), a.PhongDielectric(6), a.Samples(), a.accuracy, a.transport); }},
+  };
+  // clang-format on
+  return rows;
+}
+
+// Values over each input's domain: logarithmic for parameters, unit vectors for triples x, y, z.
+template <class T>
+Arguments<T> RandomArguments(const Names& inputs, std::size_t n, bool uniform, std::mt19937& random) {
+  Arguments<T> arguments;
+  arguments.n = n;
+  std::uniform_real_distribution<double> unit(0, 1);
+  std::normal_distribution<double> normal;
+  for (std::size_t k = 0; k < inputs.count; ++k) {
+    const std::string_view name = inputs.name[k];
+    const Input& input = FindInput(name);
+    arguments.uniform[k] = uniform && k >= inputs.per_lane;
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      double value = input.low + (input.high - input.low) * unit(random);
+      if (input.low > 0) value = input.low * std::pow(input.high / input.low, unit(random));
+      if (name == "exponent") value = std::pow(2e10, unit(random)) - 1;
+      if (name.back() == 'x' && name.size() <= 3) value = normal(random);
+      if ((name.back() == 'y' || name.back() == 'z') && name.size() <= 3) value = normal(random);
+      arguments.in[k].push_back(static_cast<T>(value));
+    }
+  }
+  for (std::size_t k = 0; k + 2 < inputs.count; ++k) {
+    const std::string_view name = inputs.name[k];
+    if (name.back() != 'x' || name.size() > 3) continue;
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      T &x = arguments.in[k][i], &y = arguments.in[k + 1][i], &z = arguments.in[k + 2][i];
+      const T length = std::hypot(x, y, z);
+      x /= length;
+      y /= length;
+      z /= length;
+    }
+  }
+  for (std::vector<T>& out : arguments.out) out.assign(kLanes, T{-1234});
+  return arguments;
+}
+
+template <class T>
+void RunById(std::size_t kernel, Arguments<T>& a) {
+  Call<T> call;
+  for (std::size_t k = 0; k < kMaxInputs; ++k) {
+    call.in[k] = a.in[k].data();
+    call.uniform[k] = a.uniform[k];
+  }
+  for (std::size_t k = 0; k < kMaxOutputs; ++k) call.out[k] = a.out[k].data();
+  call.transport = a.transport;
+  if constexpr (std::is_same_v<T, float>) {
+    RunKernel(kernel, a.accuracy, call, a.n);
+  } else {
+    RunKernel(kernel, call, a.n);
+  }
+}
+
+template <class T>
+class TypedCalls : public ::testing::Test {};
+using Types = ::testing::Types<float, double>;
+TYPED_TEST_SUITE(TypedCalls, Types);
+
+TYPED_TEST(TypedCalls, CoverTheKernelListButItsMathematics) {
+  for (const Kernel& kernel : kKernels) {
+    int rows = 0;
+    for (const Row<TypeParam>& row : Rows<TypeParam>()) rows += row.id == kernel.id ? 1 : 0;
+    EXPECT_EQ(rows, kernel.id.substr(0, 5) == "math." ? 0 : 1) << kernel.id;
+  }
+}
+
+TYPED_TEST(TypedCalls, GiveTheSameBitsAsTheKernelById) {
+  std::mt19937 random(1);
+  std::size_t points = 0;
+  for (const Row<TypeParam>& row : Rows<TypeParam>()) {
+    const std::size_t kernel = KernelIndex(row.id);
+    ASSERT_LT(kernel, kNumKernels) << row.id;
+    const Names inputs = Split(kKernels[kernel].inputs);
+    for (const Accuracy accuracy : {Accuracy::kHigh, Accuracy::kStandard, Accuracy::kFast}) {
+      for (const Transport transport : {Transport::kRadiance, Transport::kImportance}) {
+        for (const bool uniform : {false, true}) {
+          for (const std::size_t n : {std::size_t{0}, std::size_t{1}, std::size_t{16}, kLanes}) {
+            Arguments<TypeParam> typed = RandomArguments<TypeParam>(inputs, n, uniform, random);
+            typed.accuracy = accuracy;
+            typed.transport = transport;
+            Arguments<TypeParam> by_id = typed;
+            row.run(typed);
+            RunById(kernel, by_id);
+            for (std::size_t k = 0; k < kMaxOutputs; ++k) {
+              // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): encodings are compared.
+              EXPECT_EQ(std::memcmp(typed.out[k].data(), by_id.out[k].data(), kLanes * sizeof(TypeParam)), 0)
+                  << row.id << " output " << k << " accuracy " << static_cast<int>(accuracy) << " n " << n;
+            }
+            points += n;
+          }
+        }
+      }
+    }
+  }
+  std::printf("%zu points\n", points);
+}
+
+TEST(Parameters, ConvertFromLiteralsAndPointers) {
+  const float x[] = {0.6f, 0}, y[] = {0, 0.6f}, z[] = {0.8f, 0.8f}, alphas[] = {0.25f, 0.25f};
+  float uniform[2], per_lane[2], isotropic[2];
+  ggx::D(2, {x, y, z}, 0.25, alphas, uniform);
+  ggx::D(2, {x, y, z}, alphas, 0.25f, per_lane);
+  ggx::D(2, {x, y, z}, alphas, isotropic);
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_EQ(uniform[i], per_lane[i]);
+    EXPECT_FLOAT_EQ(uniform[i], isotropic[i]);
+  }
+}
+
+TEST(Materials, AcceptTheWholeDomainAndCarryItsValues) {
+  for (const double alpha : {1e-5, static_cast<double>(1e-5f), 0.1, 100.0}) {
+    for (const double eta : {0.25, 1.0, 1.5, 4.0}) {
+      const RoughDielectricMaterial material(alpha, 0.5, eta);
+      EXPECT_TRUE(material.ok()) << material.error();
+      EXPECT_EQ(*material.Parameters<double>().alpha_x.data(), alpha);
+      EXPECT_EQ(*material.Parameters<float>().alpha_y.data(), 0.5f);
+      EXPECT_EQ(*material.Parameters<float>().eta.data(), static_cast<float>(eta));
+    }
+  }
+  for (const double exponent : {0.0, 1.0, 2e10}) {
+    const PhongDielectricMaterial material(exponent, 1.5);
+    EXPECT_TRUE(material.ok()) << material.error();
+    EXPECT_EQ(*material.Parameters<double>().exponent.data(), exponent);
+  }
+}
+
+// EXTREMES: one-axis-zero.
+TEST(Materials, NameParameterValueAndRangeOfAnError) {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(RoughDielectricMaterial(0, 0.5, 1.5).error(), "alpha_x = 0 is outside [1e-05, 100]");
+  EXPECT_EQ(RoughDielectricMaterial(0.5, -0.5, 1.5).error(), "alpha_y = -0.5 is outside [1e-05, 100]");
+  EXPECT_EQ(RoughDielectricMaterial(0.5, 1e-6, 1.5).error(), "alpha_y = 1e-06 is outside [1e-05, 100]");
+  EXPECT_EQ(RoughDielectricMaterial(0.5, kInfinity, 1.5).error(), "alpha_y = inf is outside [1e-05, 100]");
+  EXPECT_EQ(RoughDielectricMaterial(0.5, 0.5, kNaN).error(), "eta = nan is outside [0.25, 4]");
+  EXPECT_EQ(RoughDielectricMaterial(kNaN, 0.5, 0).error(),
+            "alpha_x = nan is outside [1e-05, 100]; eta = 0 is outside [0.25, 4]");
+  EXPECT_EQ(PhongDielectricMaterial(-1, 1.5).error(), "exponent = -1 is outside [0, 2e+10]");
+  EXPECT_EQ(PhongDielectricMaterial(10, 5).error(), "eta = 5 is outside [0.25, 4]");
+  EXPECT_EQ(CheckParameter("roughness", 0.5), "unknown parameter 'roughness'");
+  EXPECT_EQ(CheckParameter("alpha", 0.5), "");
+}
+
+TEST(Materials, OfWrongParametersGiveNaN) {
+  const RoughDielectricMaterial material(0, 0.5, 1.5);
+  EXPECT_FALSE(material.ok());
+  const float x = 0.6f, y = 0, z = 0.8f;
+  float f_cos = 0;
+  rough_dielectric::Eval(1, {&x, &y, &z}, {&x, &y, &z}, material.Parameters<float>(), &f_cos);
+  EXPECT_TRUE(std::isnan(f_cos)) << f_cos;
+}
+
+class Targets : public ::testing::Test {
+ protected:
+  void TearDown() override {
+    ChooseTarget(chosen_);
+    unsetenv("MICROLANE_TARGET");
+  }
+
+ private:
+  std::string chosen_ = ChosenTarget();
+};
+
+TEST_F(Targets, AreListedBestFirstAndChosenByNameInAnyCase) {
+  const std::vector<std::string> targets = SupportedTargets();
+  ASSERT_FALSE(targets.empty());
+  for (const std::string& name : targets) {
+    EXPECT_EQ(ChooseTarget(name), "");
+    EXPECT_EQ(ChosenTarget(), name);
+    std::string lower = name;
+    for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    ChooseTarget("best");
+    EXPECT_EQ(ChosenTarget(), targets[0]);
+    EXPECT_EQ(ChooseTarget(lower), "");
+    EXPECT_EQ(ChosenTarget(), name);
+  }
+}
+
+TEST_F(Targets, AnUnknownNameIsAnErrorThatListsTheKnownOnes) {
+  const std::vector<std::string> targets = SupportedTargets();
+  ASSERT_EQ(ChooseTarget(targets.back()), "");
+  const std::string error = ChooseTarget("no-such");
+  EXPECT_NE(error.find("no-such"), std::string::npos) << error;
+  for (const std::string& name : targets) EXPECT_NE(error.find(name), std::string::npos) << error;
+  EXPECT_EQ(ChosenTarget(), targets.back()) << "the choice changed";
+}
+
+TEST_F(Targets, AnUnknownNameInTheEnvironmentIsReported) {
+  unsetenv("MICROLANE_TARGET");
+  EXPECT_EQ(TargetEnvironmentError(), "");
+  setenv("MICROLANE_TARGET", SupportedTargets().back().c_str(), 1);
+  EXPECT_EQ(TargetEnvironmentError(), "");
+  setenv("MICROLANE_TARGET", "no-such", 1);
+  const std::string error = TargetEnvironmentError();
+  for (const char* part : {"MICROLANE_TARGET", "no-such"}) {
+    EXPECT_NE(error.find(part), std::string::npos) << error;
+  }
+  for (const std::string& name : SupportedTargets()) EXPECT_NE(error.find(name), std::string::npos) << error;
+}
+
+// Writes the first choice of a process whose environment names `name`.
+void WriteFirstChoice(const std::string& name) {
+  setenv("MICROLANE_TARGET", name.c_str(), 1);
+  std::fprintf(stderr, "first choice: %s.", ChosenTarget().c_str());
+  std::exit(0);
+}
+
+// Each in a process of its own, since the environment is read once.
+TEST(Environment, DecidesTheFirstChoiceAndAnUnknownNameLeavesTheBest) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  const std::vector<std::string> targets = SupportedTargets();
+  for (const std::string& name : targets) {
+    EXPECT_EXIT(WriteFirstChoice(name), ::testing::ExitedWithCode(0), "first choice: " + name + "\\.");
+  }
+  EXPECT_EXIT(WriteFirstChoice("no-such"), ::testing::ExitedWithCode(0),
+              "first choice: " + targets[0] + "\\.");
+}
+
+}  // namespace
+}  // namespace microlane

@@ -1,0 +1,37 @@
+// The high-precision truth of every entry of the kernel list.
+#ifndef MICROLANE_TESTS_ORACLE_ORACLE_H_
+#define MICROLANE_TESTS_ORACLE_ORACLE_H_
+
+#include <cstddef>
+
+#include "microlane/kernel_list.h"
+#include "oracle/real.h"
+#include "oracle/rough_dielectric.h"
+
+namespace microlane::oracle {
+
+struct Result {
+  Real exact[kMaxOutputs];  // the value; infinite where it is, whatever the kernel saturates to
+  // The value whose ulp is the unit of error: exact for kUlp and kExact, 1 for kDirection,
+  // |exact| kappa for kConditioned.
+  Real scale[kMaxOutputs];
+  // Sampling: the least change of wi.m, wo.z, u3 or cos^2 of the refracted angle, to first order, that
+  // turns a decision (side of m, choice by Fresnel, total internal reflection, side of wo). Infinite
+  // where nothing was decided by rounding.
+  double margin;
+};
+
+// Evaluates entry `kernel` of the list at `inputs`, in its order and exactly as given. A NaN among them makes
+// every output NaN. A lobe_hint of 0, 1 or 2 judges a sample as if that lobe had been chosen: callers pass
+// the lobe of the code under test when margin excuses a different choice.
+Result Evaluate(std::size_t kernel, const double* inputs, Transport transport = Transport::kRadiance,
+                int lobe_hint = -1);
+Result Evaluate(std::size_t kernel, const Real* inputs, Transport transport = Transport::kRadiance,
+                int lobe_hint = -1);
+
+// Whether the oracle knows the entry; otherwise Evaluate gives NaN.
+bool HasKernel(std::size_t kernel);
+
+}  // namespace microlane::oracle
+
+#endif  // MICROLANE_TESTS_ORACLE_ORACLE_H_

@@ -1,0 +1,195 @@
+// The row `reassociated` of the stiff and extreme cases: lane functions in someone else's translation unit,
+// built with -O3 and with products and sums contracted as GCC does by default, beside the library's own.
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC optimize("O3", "fp-contract=fast")
+#endif
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "reassociated_test.cc"
+#include "hwy/foreach_target.h"  // must stand before highway.h
+#include "microlane/beckmann-inl.h"
+#include "microlane/fresnel-inl.h"
+#include "microlane/ggx-inl.h"
+#include "microlane/half_vector-inl.h"
+#include "microlane/rough_dielectric-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace microlane {
+namespace HWY_NAMESPACE {
+namespace {
+
+// Runs op(d, in, out) over whole vectors; n is a multiple of every vector's lanes.
+template <int kIn, int kOut, class Op>
+void OverVectors(const float* const* in, float* const* out, size_t n, const Op& op) {
+  const hn::ScalableTag<float> d;
+  for (size_t i = 0; i < n; i += hn::Lanes(d)) {
+    Vec<decltype(d)> v[kIn], w[kOut];
+    for (int k = 0; k < kIn; ++k) v[k] = hn::LoadU(d, in[k] + i);
+    op(d, v, w);
+    for (int k = 0; k < kOut; ++k) hn::StoreU(w[k], d, out[k] + i);
+  }
+}
+
+constexpr Accuracy kA = Accuracy::kStandard;
+
+void GgxD(const float* const* in, float* const* out, size_t n) {
+  OverVectors<5, 1>(in, out, n, [](auto d, const auto* v, auto* w) HWY_ATTR {
+    w[0] = NormalDensity<Ggx, kA>(d, v[0], v[1], v[2], v[3], v[4]);
+  });
+}
+void GgxLambda(const float* const* in, float* const* out, size_t n) {
+  OverVectors<5, 1>(in, out, n, [](auto d, const auto* v, auto* w) HWY_ATTR {
+    w[0] = Ggx::Lambda<kA>(d, v[0], v[1], v[2], v[3], v[4]);
+  });
+}
+void BeckmannD(const float* const* in, float* const* out, size_t n) {
+  OverVectors<5, 1>(in, out, n, [](auto d, const auto* v, auto* w) HWY_ATTR {
+    w[0] = NormalDensity<Beckmann, kA>(d, v[0], v[1], v[2], v[3], v[4]);
+  });
+}
+void Fresnel(const float* const* in, float* const* out, size_t n) {
+  OverVectors<2, 1>(in, out, n, [](auto d, const auto* v, auto* w) HWY_ATTR {
+    w[0] = FresnelDielectric<FresnelPart::kUnpolarised, kA>(d, v[0], v[1]);
+  });
+}
+void HalfVector(const float* const* in, float* const* out, size_t n) {
+  OverVectors<6, 3>(in, out, n, [](auto d, const auto* v, auto* w) HWY_ATTR {
+    HalfVectorReflection<kA>(d, w[0], w[1], w[2], v[0], v[1], v[2], v[3], v[4], v[5]);
+  });
+}
+void Eval(const float* const* in, float* const* out, size_t n) {
+  OverVectors<9, 1>(in, out, n, [](auto d, const auto* v, auto* w) HWY_ATTR {
+    const auto radiance = hn::Eq(hn::Zero(d), hn::Zero(d));
+    auto unused = hn::Zero(d);
+    RoughDielectric<Ggx, Lobes::kBoth, JointMasking::kHeightCorrelated, true, false, kA>(
+        d, radiance, w[0], unused, v[0], v[1], v[2], v[3], v[4], v[5], v[8], v[6], v[7]);
+  });
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace microlane
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "accuracy.h"
+#include "microlane/kernel_list.h"
+#include "microlane/targets.h"
+#include "oracle/oracle.h"
+#include "points.h"
+#include "ulp.h"
+
+namespace microlane {
+namespace {
+
+HWY_EXPORT(GgxD);
+HWY_EXPORT(GgxLambda);
+HWY_EXPORT(BeckmannD);
+HWY_EXPORT(Fresnel);
+HWY_EXPORT(HalfVector);
+HWY_EXPORT(Eval);
+
+using Function = void (*)(const float* const*, float* const*, size_t);
+
+struct Case {
+  std::string_view id;
+  Function (*chosen)();  // on the target that Highway has chosen
+};
+
+const Case kCases[] = {{"ggx.D", [] { return HWY_DYNAMIC_POINTER(GgxD); }},
+                       {"ggx.Lambda", [] { return HWY_DYNAMIC_POINTER(GgxLambda); }},
+                       {"beckmann.D", [] { return HWY_DYNAMIC_POINTER(BeckmannD); }},
+                       {"fresnel.dielectric", [] { return HWY_DYNAMIC_POINTER(Fresnel); }},
+                       {"half_vector.reflection", [] { return HWY_DYNAMIC_POINTER(HalfVector); }},
+                       {"rough_dielectric.eval", [] { return HWY_DYNAMIC_POINTER(Eval); }}};
+
+std::vector<Point> PointsOf(std::size_t kernel) {
+  std::vector<Point> points;
+  const RandomPoints random_points(kernel, 31);
+  for (std::uint64_t i = 0; i < 20000; ++i) points.push_back(random_points(i));
+  for (const ExtremeCase& extreme : ExtremeCases(kernel)) points.push_back(extreme.in);
+  points.resize(points.size() / 64 * 64);
+  return points;
+}
+
+std::vector<std::vector<float>> RunHere(const Case& one, const std::vector<Point>& points) {
+  const std::size_t kernel = KernelIndex(one.id), n = points.size();
+  std::vector<std::vector<float>> in(Split(kKernels[kernel].inputs).count, std::vector<float>(n));
+  std::vector<std::vector<float>> out(Split(kKernels[kernel].outputs).count, std::vector<float>(n));
+  std::vector<const float*> in_data;
+  std::vector<float*> out_data;
+  for (std::size_t k = 0; k < in.size(); ++k) {
+    for (std::size_t j = 0; j < n; ++j) in[k][j] = static_cast<float>(points[j][k]);
+    in_data.push_back(in[k].data());
+  }
+  for (std::vector<float>& values : out) out_data.push_back(values.data());
+  one.chosen()(in_data.data(), out_data.data(), n);
+  return out;
+}
+
+// Beyond the largest float a lane function may give infinity: to saturate is the batch call's part.
+double Error(float got, const oracle::Real& exact) {
+  return std::isinf(got) && abs(exact) > 3.0e38 ? 0 : UlpError(got, exact);
+}
+
+// Contraction may change a lane function's last bits where the target has FMA; it must not break what the
+// stable form is for. The batch calls, compiled in the library, keep their bits beside such a translation
+// unit.
+TEST(Reassociated, LaneFunctionsAndBatchCallsStayWithinTheirBounds) {
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    hwy::GetChosenTarget().Update(target);
+    const std::string name = hwy::TargetName(target);
+    for (const Case& one : kCases) {
+      const std::size_t kernel = KernelIndex(one.id);
+      AccuracyOptions options;
+      options.target = name;
+      const double bound = DeclaredBound(kernel, options);
+      const std::vector<Point> points = PointsOf(kernel);
+      const std::vector<std::vector<float>> here = RunHere(one, points);
+      const auto library = Compute(kernel, options, points);
+      std::size_t different = 0;
+      double worst_here = 0, worst_library = 0;
+      std::size_t where = 0;
+      for (std::size_t j = 0; j < points.size(); ++j) {
+        const oracle::Result truth = oracle::Evaluate(kernel, points[j].data());
+        for (std::size_t i = 0; i < here.size(); ++i) {
+          const float from_library = static_cast<float>(library[j][i]);
+          if (std::isfinite(here[i][j])) {
+            different += std::memcmp(&here[i][j], &from_library, sizeof from_library) != 0;
+          }
+          worst_library = std::max(worst_library, UlpError(from_library, truth.exact[i]));
+          const double error = Error(here[i][j], truth.exact[i]);
+          if (error > worst_here) {
+            worst_here = error;
+            where = j;
+          }
+        }
+      }
+      std::printf(
+          "[points] reassociated %s %s: %zu points, %zu results with other bits, max %.3g ulp here, "
+          "%.3g in the library (bound %g)\n",
+          std::string(one.id).c_str(), name.c_str(), points.size(), different, worst_here, worst_library,
+          bound);
+      EXPECT_LE(worst_library, bound) << one.id << " " << name;
+      EXPECT_LE(worst_here, bound) << one.id << " " << name << " at " << Describe(kernel, points[where]);
+      if (!TargetHasFma(name)) {
+        EXPECT_EQ(different, 0u) << one.id << " " << name;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace microlane
+
+#endif  // HWY_ONCE

@@ -1,0 +1,757 @@
+// Properties of every sampler: its density, its weights and its edges. All random numbers have fixed seeds.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <limits>
+#include <random>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "columns.h"
+#include "quadrature.h"
+#include "statistics.h"
+
+namespace microlane {
+namespace {
+
+constexpr double kOverallSignificance = 0.01;
+
+template <class T>
+constexpr double kRounding = std::is_same_v<T, float> ? 0x1p-24 : 0x1p-53;
+
+// A sampler of normals: a distribution, and the cosine that widens its lobe or 0 for the plain one.
+struct NormalCase {
+  Distribution distribution;
+  double widening_cos;
+  Accuracy accuracy;
+};
+
+std::vector<NormalCase> NormalCases() {
+  std::vector<NormalCase> cases;
+  for (const Accuracy accuracy : {Accuracy::kStandard, Accuracy::kFast, Accuracy::kHigh}) {
+    constexpr float kAlphas[][2] = {{0.05f, 0.05f}, {0.1f, 0.1f},  {0.344f, 0.344f}, {0.6f, 0.6f},
+                                    {1, 1},         {0.05f, 0.5f}, {1, 0.1f}};
+    for (const auto& alpha : kAlphas) {
+      cases.push_back({Ggx(alpha[0], alpha[1]), 0, accuracy});
+      cases.push_back({Beckmann(alpha[0], alpha[1]), 0, accuracy});
+      for (const double cos_i : {1.0, 0.5, 0.01}) {
+        cases.push_back({Beckmann(alpha[0], alpha[1]), cos_i, accuracy});
+      }
+    }
+    for (const float exponent : {0.0f, 0.5f, 6.0f, 48.0f, 798.0f})
+      cases.push_back({Phong(exponent), 0, accuracy});
+  }
+  return cases;
+}
+
+// A sampler of directions: a surface and a direction of incidence.
+struct DielectricCase {
+  Distribution distribution;
+  double eta, theta, side;
+
+  Direction wi() const { return side * Spherical(Radians(theta), 0.7); }
+  std::string Text() const {
+    return distribution.Text() +
+           microlane::Text(", eta %g, %g degrees from %s", eta, theta, side > 0 ? "above" : "below");
+  }
+};
+
+// Walter's range and its corners; at eta = 1/1.5 the critical angle is 41.8 degrees.
+std::vector<DielectricCase> DielectricCases() {
+  std::vector<Distribution> distributions;
+  for (const auto& make : {Ggx, Beckmann}) {
+    for (const float alpha : {0.05f, 0.2f, 0.5f, 1.0f}) distributions.push_back(make(alpha, alpha));
+    distributions.push_back(make(0.05f, 0.4f));
+    distributions.push_back(make(0.8f, 0.2f));
+  }
+  for (const float exponent : {798.0f, 48.0f, 6.0f, 0.0f}) distributions.push_back(Phong(exponent));
+  std::vector<DielectricCase> cases;
+  for (const Distribution& distribution : distributions) {
+    for (const float eta : {1.5f, 1 / 1.5f, 1.1f}) {
+      for (const double theta : {0.0, 30.0, 60.0, 75.0, 85.0}) {
+        for (const double side : {1.0, -1.0}) cases.push_back({distribution, eta, theta, side});
+      }
+    }
+  }
+  return cases;
+}
+
+// Sidak's correction over all chi-square tests of this file.
+double ChiSquareSignificance() {
+  return SidakSignificance(kOverallSignificance, NormalCases().size() + DielectricCases().size());
+}
+
+// Cells of the sphere, between quantiles of the colatitude and of the azimuth of given directions, for each
+// hemisphere. Azimuths are counted from the mean one.
+class SphereGrid {
+ public:
+  // About `num_cells` cells, shared by the hemispheres as the directions are; of none, a hemisphere gets a
+  // few.
+  template <class T>
+  SphereGrid(const DirectionColumns<T>& directions, int num_cells) {
+    for (const bool upper : {true, false}) {
+      Edges& edges = edges_[upper ? 0 : 1];
+      Direction mean{0, 0, 0};
+      std::vector<Direction> members;
+      for (std::size_t i = 0; i < directions.size(); ++i) {
+        const Direction v = directions[i];
+        if (v.z == 0 || (v.z > 0) != upper) continue;
+        members.push_back(v);
+        mean = mean + v;
+      }
+      edges.origin = std::atan2(mean.y, mean.x);
+      std::vector<double> theta, phi;
+      for (const Direction& v : members) {
+        theta.push_back(Theta(v));
+        phi.push_back(edges.Phi(v));
+      }
+      const double share = static_cast<double>(members.size()) / directions.size();
+      const int count = std::max(5, static_cast<int>(std::sqrt(share * num_cells)));
+      edges.theta = Quantiles(theta, count, upper ? 0 : kTestPi / 2, upper ? kTestPi / 2 : kTestPi);
+      edges.phi = Quantiles(phi, count, -kTestPi, kTestPi);
+      edges.first_cell = cells_.size();
+      for (std::size_t j = 0; j + 1 < edges.theta.size(); ++j) {
+        for (std::size_t k = 0; k + 1 < edges.phi.size(); ++k) {
+          cells_.push_back({edges.theta[j], edges.theta[j + 1], edges.origin + edges.phi[k],
+                            edges.origin + edges.phi[k + 1]});
+        }
+      }
+    }
+  }
+
+  const std::vector<Cell>& cells() const { return cells_; }
+  std::size_t CellOf(const Direction& v) const {
+    const Edges& edges = edges_[v.z > 0 ? 0 : 1];
+    return edges.first_cell + Interval(edges.theta, Theta(v)) * (edges.phi.size() - 1) +
+           Interval(edges.phi, edges.Phi(v));
+  }
+
+ private:
+  struct Edges {
+    double Phi(const Direction& v) const {
+      return std::remainder(std::atan2(v.y, v.x) - origin, 2 * kTestPi);
+    }
+
+    double origin = 0;
+    std::vector<double> theta, phi;
+    std::size_t first_cell = 0;
+  };
+
+  static double Theta(const Direction& v) { return std::atan2(std::sqrt(v.x * v.x + v.y * v.y), v.z); }
+  // Beyond the outermost quantiles, intervals double, so that no interval is wide where its end is still
+  // steep.
+  static std::vector<double> Quantiles(std::vector<double> values, int count, double low, double high) {
+    std::sort(values.begin(), values.end());
+    std::vector<double> edges;
+    for (int k = 1; k < count; ++k) {
+      const double edge = values.empty() ? low + (high - low) * k / count : values[values.size() * k / count];
+      if (edge > low && edge < high && (edges.empty() || edge > edges.back())) edges.push_back(edge);
+    }
+    if (edges.size() >= 2) {
+      const double least = 1e-3 * (high - low);
+      for (double step = std::max(least, edges[1] - edges[0]); edges[0] - step > low; step *= 2) {
+        edges.insert(edges.begin(), edges[0] - step);
+      }
+      for (double step = std::max(least, edges.back() - edges[edges.size() - 2]); edges.back() + step < high;
+           step *= 2) {
+        edges.push_back(edges.back() + step);
+      }
+    }
+    edges.insert(edges.begin(), low);
+    edges.push_back(high);
+    return edges;
+  }
+  static std::size_t Interval(const std::vector<double>& edges, double x) {
+    const auto above = std::upper_bound(edges.begin() + 1, edges.end() - 1, x);
+    return static_cast<std::size_t>(above - edges.begin()) - 1;
+  }
+
+  Edges edges_[2];
+  std::vector<Cell> cells_;
+};
+
+struct DensityTest {
+  ChiSquareResult chi_square;
+  double total_density = 0;  // integral over the sphere
+  double quadrature_error = 0;
+  std::size_t num_evaluations = 0;
+};
+
+// Integrals of `density` over the cells of a grid, to `tolerance` each by its own estimate. Where a cell got
+// visibly less than the pilot's weights promise, a ridge may have passed between all nodes: such cells are
+// integrated again in 256 parts. The pilot decides where to look closer, never what is found there.
+template <class T, class Density>
+CellIntegrals IntegrateOverGrid(const SphereGrid& grid, const DirectionColumns<T>& pilot,
+                                const Column<T>& weights, double tolerance, const Density& density) {
+  constexpr int kParts = 16;
+  const std::vector<Cell>& cells = grid.cells();
+  CellIntegrals integrals = IntegrateCells(cells, tolerance, density);
+  std::vector<double> sums(cells.size(), 0.0), squares(cells.size(), 0.0);
+  for (std::size_t i = 0; i < pilot.size(); ++i) {
+    if (pilot.z[i] == 0) continue;
+    const std::size_t c = grid.CellOf(pilot[i]);
+    sums[c] += weights[i];
+    squares[c] += double{weights[i]} * weights[i];
+  }
+  std::vector<std::size_t> suspects;
+  std::vector<Cell> parts;
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    if (integrals.value[c] * pilot.size() >= sums[c] - 4 * std::sqrt(squares[c])) continue;
+    suspects.push_back(c);
+    const Cell& cell = cells[c];
+    const double theta_step = (cell.theta_high - cell.theta_low) / kParts;
+    const double phi_step = (cell.phi_high - cell.phi_low) / kParts;
+    for (int j = 0; j < kParts; ++j) {
+      for (int k = 0; k < kParts; ++k) {
+        parts.push_back({cell.theta_low + j * theta_step, cell.theta_low + (j + 1) * theta_step,
+                         cell.phi_low + k * phi_step, cell.phi_low + (k + 1) * phi_step});
+      }
+    }
+  }
+  const CellIntegrals closer = IntegrateCells(parts, tolerance / kParts, density);
+  for (std::size_t s = 0; s < suspects.size(); ++s) {
+    double& value = integrals.value[suspects[s]];
+    value = 0;
+    for (std::size_t part = s * kParts * kParts; part < (s + 1) * kParts * kParts; ++part)
+      value += closer.value[part];
+  }
+  integrals.num_evaluations += closer.num_evaluations;
+  integrals.error += closer.error;
+  return integrals;
+}
+
+// Chi-square of directions (zero: a sample that failed) against a density over the sphere whose integral is
+// the probability not to fail.
+template <class T, class Density>
+DensityTest TestDensity(const DirectionColumns<T>& pilot, const DirectionColumns<T>& samples,
+                        const Density& density) {
+  const SphereGrid grid(pilot, 600);
+  // 5e-7 of n = 10^5 is a twentieth of a count in each cell.
+  const CellIntegrals integrals = IntegrateOverGrid(grid, pilot, Column<T>(pilot.size(), 1), 5e-7, density);
+  DensityTest test;
+  test.num_evaluations = integrals.num_evaluations;
+  test.quadrature_error = integrals.error;
+  const double n = static_cast<double>(samples.size());
+  std::vector<double> expected, observed(grid.cells().size() + 1, 0.0);
+  for (const double value : integrals.value) {
+    test.total_density += value;
+    expected.push_back(n * value);
+  }
+  expected.push_back(std::max(0.0, n * (1 - test.total_density)));
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const Direction v = samples[i];
+    ++observed[v.z == 0 ? grid.cells().size() : grid.CellOf(v)];
+  }
+  test.chi_square = ChiSquareTest(observed, expected);
+  return test;
+}
+
+// Collects chi-square tests: each against the corrected significance, and the smallest p-value for the
+// report.
+class ChiSquareTally {
+ public:
+  explicit ChiSquareTally(std::string property) : property_(std::move(property)) {}
+  ChiSquareTally(const ChiSquareTally&) = delete;
+  ChiSquareTally& operator=(const ChiSquareTally&) = delete;
+  ~ChiSquareTally() {
+    std::printf(
+        "  %s: %zu tests of %zu samples, %zu nodes, mean %.0f degrees of freedom, smallest p %.3g (>= %.3g) "
+        "at %s, "
+        "quadrature error <= %.1e\n",
+        property_.c_str(), tests_, samples_, nodes_, degrees_ / std::max<std::size_t>(tests_, 1), smallest_p_,
+        significance_, where_.c_str(), quadrature_error_);
+  }
+  void Add(const DensityTest& test, std::size_t num_samples, const std::string& where) {
+    ++tests_;
+    samples_ = num_samples;
+    nodes_ += test.num_evaluations;
+    degrees_ += test.chi_square.degrees_of_freedom;
+    quadrature_error_ = std::max(quadrature_error_, test.quadrature_error);
+    if (tests_ == 1 || test.chi_square.p_value < smallest_p_) {
+      smallest_p_ = test.chi_square.p_value;
+      where_ = where;
+    }
+    EXPECT_GE(test.chi_square.p_value, significance_)
+        << where << ": chi-square " << test.chi_square.statistic << " with "
+        << test.chi_square.degrees_of_freedom << " degrees of freedom, density integrates to "
+        << test.total_density;
+    // The quadrature's own estimate, and a floor for what it cannot see.
+    EXPECT_LE(test.total_density, 1 + test.quadrature_error + 1e-6) << where;
+  }
+
+ private:
+  std::string property_, where_ = "none";
+  double significance_ = ChiSquareSignificance(), smallest_p_ = 1, degrees_ = 0, quadrature_error_ = 0;
+  std::size_t tests_ = 0, samples_ = 0, nodes_ = 0;
+};
+
+TEST(Statistics, TailsOfKnownDistributions) {
+  EXPECT_NEAR(ChiSquareTail(3.841458820694124, 1), 0.05, 1e-12);
+  EXPECT_NEAR(ChiSquareTail(18.307038053275146, 10), 0.05, 1e-12);
+  EXPECT_NEAR(ChiSquareTail(82.35814, 100), 0.9, 1e-6);
+  EXPECT_NEAR(ChiSquareTail(149.44925, 100), 0.001, 1e-8);
+  EXPECT_NEAR(NormalBound(0.05), 1.959963984540054, 1e-12);
+  EXPECT_NEAR(SidakSignificance(0.01, 500), 2.00998e-5, 1e-9);
+}
+
+template <class T>
+DirectionColumns<T> SampleNormals(const NormalCase& c, std::size_t n, std::mt19937_64& random) {
+  const Column<T> u1 = UniformNumbers<T>(n, random), u2 = UniformNumbers<T>(n, random);
+  const std::string family(c.distribution.family);
+  if (c.widening_cos == 0) {
+    return RunDirection<T>(family + ".sample_normal", n, {c.accuracy}, u1, u2, c.distribution);
+  }
+  const Column<T> cos_i(n, static_cast<T>(c.widening_cos));
+  return RunDirection<T>(family + ".sample_normal_widened", n, {c.accuracy}, u1, u2, cos_i, c.distribution);
+}
+
+// Walter 2007, Eq. 24; widened, of the alphas of section 5.3.
+TEST(NormalSampler, DensityIsDTimesTheCosine) {
+  constexpr std::size_t kSamples = 100000;
+  ChiSquareTally tally("normals against D cos");
+  std::uint64_t seed = 1;
+  for (const NormalCase& c : NormalCases()) {
+    std::mt19937_64 random(seed++);
+    const DirectionColumns<float> pilot = SampleNormals<float>(c, 20000, random);
+    const DirectionColumns<float> samples = SampleNormals<float>(c, kSamples, random);
+    const double widening = c.widening_cos == 0 ? 1 : 1.2 - 0.2 * std::sqrt(c.widening_cos);
+    Distribution wide = c.distribution;
+    if (wide.family != "phong") {
+      for (double& parameter : wide.parameters) parameter *= widening;
+    }
+    const DensityTest test = TestDensity(pilot, samples, [&](const DirectionColumns<double>& m) {
+      Column<double> density = RunOne<double>(wide.Id("D"), m.size(), {}, m, wide);
+      for (std::size_t i = 0; i < m.size(); ++i) density[i] *= std::abs(m.z[i]);
+      return density;
+    });
+    tally.Add(test, kSamples, c.distribution.Text() + Text(", widening %g", widening));
+  }
+}
+
+struct SampledDirections {
+  DirectionColumns<float> wo;
+  Column<float> weight;
+};
+
+SampledDirections SampleDirections(const DielectricCase& c, std::size_t n, std::mt19937_64& random,
+                                   Accuracy accuracy, std::string_view quantity = "sample") {
+  const Direction wi = c.wi();
+  const Column<float> u1 = UniformNumbers<float>(n, random), u2 = UniformNumbers<float>(n, random),
+                      u3 = UniformNumbers<float>(n, random);
+  std::vector<Column<float>> out = RunAll<float>(c.distribution.Dielectric(quantity), n, {accuracy}, wi, u1,
+                                                 u2, u3, c.distribution, c.eta);
+  return {{std::move(out[0]), std::move(out[1]), std::move(out[2])}, std::move(out[3])};
+}
+
+TEST(RoughDielectricSampler, DensityIsItsPdfOverTheWholeSphereAndFailuresAreTheRest) {
+  constexpr std::size_t kSamples = 100000;
+  ChiSquareTally tally("directions against pdf");
+  std::uint64_t seed = 1000;
+  for (const DielectricCase& c : DielectricCases()) {
+    std::mt19937_64 random(seed);
+    // Every fourth case in the fast accuracy.
+    const Accuracy accuracy = seed++ % 4 == 0 ? Accuracy::kFast : Accuracy::kStandard;
+    const DirectionColumns<float> pilot = SampleDirections(c, 20000, random, accuracy).wo;
+    const DirectionColumns<float> samples = SampleDirections(c, kSamples, random, accuracy).wo;
+    const Direction wi = c.wi();
+    const DensityTest test = TestDensity(pilot, samples, [&](const DirectionColumns<double>& wo) {
+      return RunOne<double>(c.distribution.Dielectric("pdf"), wo.size(), {}, wi, wo, c.distribution, c.eta);
+    });
+    tally.Add(test, kSamples, c.Text());
+  }
+}
+
+// The test above can fail: it sees a roughness off by 4 %, an index off by 2 %.
+TEST(RoughDielectricSampler, ChiSquareRejectsADensitySlightlyWrong) {
+  constexpr std::size_t kSamples = 100000;
+  std::size_t rejected = 0;
+  const DielectricCase truth{Ggx(0.3f, 0.3f), 1.5f, 30, 1};
+  DielectricCase wrong_alpha = truth, wrong_eta = truth;
+  wrong_alpha.distribution = Ggx(0.312f, 0.312f);
+  wrong_eta.eta = 1.53;
+  std::mt19937_64 random(7);
+  const DirectionColumns<float> pilot = SampleDirections(truth, 20000, random, Accuracy::kStandard).wo;
+  const DirectionColumns<float> samples = SampleDirections(truth, kSamples, random, Accuracy::kStandard).wo;
+  for (const DielectricCase& c : {wrong_alpha, wrong_eta}) {
+    const DensityTest test = TestDensity(pilot, samples, [&](const DirectionColumns<double>& wo) {
+      return RunOne<double>(c.distribution.Dielectric("pdf"), wo.size(), {}, truth.wi(), wo, c.distribution,
+                            c.eta);
+    });
+    EXPECT_LT(test.chi_square.p_value, ChiSquareSignificance()) << c.Text();
+    rejected += test.chi_square.p_value < ChiSquareSignificance();
+  }
+  std::printf("  %zu of 2 wrong densities rejected\n", rejected);
+}
+
+// One sample of every lane, and the kernels evaluated at the direction it returned.
+template <class T>
+struct Checked {
+  DirectionColumns<T> wi, wo;
+  Column<T> weight, pdf, lobe, f_cos, pdf_there;
+};
+
+template <class T>
+Checked<T> SampleAndEvaluate(const DielectricCase& c, std::string_view suffix, Mode mode, std::size_t n,
+                             std::mt19937_64& random) {
+  const Column<T> u1 = UniformNumbers<T>(n, random), u2 = UniformNumbers<T>(n, random),
+                  u3 = UniformNumbers<T>(n, random);
+  Checked<T> result;
+  for (std::size_t i = 0; i < n; ++i) result.wi.PushBack(c.wi());
+  std::vector<Column<T>> out = RunAll<T>(c.distribution.Dielectric("sample") + std::string(suffix), n, mode,
+                                         result.wi, u1, u2, u3, c.distribution, c.eta);
+  result.wo = {out[0], out[1], out[2]};
+  result.weight = out[3];
+  result.pdf = out[4];
+  result.lobe = out[5];
+  result.f_cos = RunOne<T>(c.distribution.Dielectric("eval") + std::string(suffix), n, mode, result.wi,
+                           result.wo, c.distribution, c.eta);
+  result.pdf_there =
+      RunOne<T>(c.distribution.Dielectric("pdf"), n, mode, result.wi, result.wo, c.distribution, c.eta);
+  return result;
+}
+
+// Walter 2007, Eqs. 37 and 41: the closed form is f |cos(theta_o)| / pdf, and the density is that of the pdf
+// kernel.
+template <class T>
+void ExpectWeightsAreValueOverDensity(Accuracy accuracy, const std::string& name) {
+  Tally weights("weight = f |cos| / pdf, " + name), densities("pdf = the pdf kernel's, " + name);
+  Tally invisible("failed samples are 0 in every output, " + name);
+  std::size_t doubtful = 0, successes = 0, failures = 0;
+  std::uint64_t seed = 5000;
+  for (const DielectricCase& c : DielectricCases()) {
+    for (const std::string_view suffix : {"", "_separable"}) {
+      if (!suffix.empty() && c.distribution.family != "ggx") continue;
+      std::mt19937_64 random(seed);
+      const Mode mode{accuracy, seed++ % 2 == 0 ? Transport::kRadiance : Transport::kImportance};
+      const std::size_t n = 500;
+      const Checked<T> s = SampleAndEvaluate<T>(c, suffix, mode, n, random);
+      const double declared =
+          std::is_same_v<T, float> ? 2 * DeclaredError<T>(c.distribution.Dielectric("eval"), accuracy) : 0;
+      // In the fast accuracy every step counts as a rounding, to about 2^-14.
+      const bool fast = accuracy == Accuracy::kFast;
+      const double u = fast ? 0x1p-14 : kRounding<T>, factor = fast ? 4 : 32, largest = fast ? 0.02 : 1e-3;
+      for (std::size_t i = 0; i < n; ++i) {
+        const auto where = [&] { return c.Text() + " wi " + Text(s.wi[i]) + " wo " + Text(s.wo[i]); };
+        if (s.lobe[i] == 0) {
+          ++failures;
+          invisible.Add(
+              std::abs(s.wo.x[i]) + std::abs(s.wo.y[i]) + std::abs(s.wo.z[i]) + s.weight[i] + s.pdf[i], 0,
+              where);
+          continue;
+        }
+        ++successes;
+        const bool reflects = s.lobe[i] == 1;
+        Direction m = Normalized(s.wi[i] + (reflects ? 1 : c.eta) * s.wo[i]);
+        if (m.z < 0) m = -1 * m;
+        const double conditioning = Conditioning(c.distribution, s.wi[i], s.wo[i], m, c.eta, reflects);
+        // f and pdf hold the same D and the same F; what is left is conditioned by the geometry only.
+        Distribution flat = c.distribution;
+        flat.scale_x = flat.scale_y = 1e30;
+        flat.parameters.assign(flat.parameters.size(), 0.0);
+        const double geometric = Conditioning(flat, s.wi[i], s.wo[i], m, c.eta, reflects);
+        if (conditioning * u > largest || s.pdf[i] < std::numeric_limits<T>::min() * 0x1p20 ||
+            s.f_cos[i] < std::numeric_limits<T>::min() * 0x1p20) {
+          ++doubtful;
+          continue;
+        }
+        weights.AddRelative(double{s.f_cos[i]} / s.pdf_there[i], s.weight[i],
+                            declared + factor * geometric * u, where);
+        densities.AddRelative(s.pdf[i], s.pdf_there[i], declared + factor * conditioning * u, where);
+      }
+    }
+  }
+  weights.Note(Text(", %zu failed, %zu too ill-conditioned to compare", failures, doubtful));
+  EXPECT_LT(doubtful, (accuracy == Accuracy::kFast ? 0.3 : 0.05) * successes);
+}
+
+TEST(RoughDielectricSampler, WeightsAreValueOverDensityInDoubleLanes) {
+  ExpectWeightsAreValueOverDensity<double>(Accuracy::kStandard, "double");
+}
+TEST(RoughDielectricSampler, WeightsAreValueOverDensityInFloatLanes) {
+  ExpectWeightsAreValueOverDensity<float>(Accuracy::kHigh, "float high");
+  ExpectWeightsAreValueOverDensity<float>(Accuracy::kStandard, "float standard");
+  ExpectWeightsAreValueOverDensity<float>(Accuracy::kFast, "float fast");
+}
+
+// The mean weight, failed samples counted with 0, estimates int f |cos| dwo.
+TEST(RoughDielectricSampler, MeanWeightIsTheDirectionalAlbedo) {
+  constexpr std::size_t kSamples = 200000;
+  std::vector<DielectricCase> cases;
+  for (const DielectricCase& c : DielectricCases()) {
+    if (c.side > 0 ? c.theta < 80 : c.theta == 60) cases.push_back(c);
+  }
+  const double bound = NormalBound(SidakSignificance(kOverallSignificance, cases.size()));
+  Tally tally("mean weight - albedo, in standard deviations");
+  std::size_t num_nodes = 0;
+  double quadrature_error = 0;
+  std::uint64_t seed = 9000;
+  for (const DielectricCase& c : cases) {
+    std::mt19937_64 random(seed++);
+    const SampledDirections pilot = SampleDirections(c, 20000, random, Accuracy::kStandard);
+    const SampledDirections samples = SampleDirections(c, kSamples, random, Accuracy::kStandard);
+    const SphereGrid grid(pilot.wo, 100);
+    const CellIntegrals albedo =
+        IntegrateOverGrid(grid, pilot.wo, pilot.weight, 2e-5, [&](const DirectionColumns<double>& wo) {
+          return RunOne<double>(c.distribution.Dielectric("eval"), wo.size(), {}, c.wi(), wo, c.distribution,
+                                c.eta);
+        });
+    double expected = 0, sum = 0, sum2 = 0;
+    for (const double value : albedo.value) expected += value;
+    for (const float w : samples.weight) {
+      sum += w;
+      sum2 += double{w} * w;
+    }
+    const double mean = sum / kSamples,
+                 deviation = std::sqrt(std::max(0.0, sum2 / kSamples - mean * mean) / kSamples);
+    num_nodes += albedo.num_evaluations;
+    quadrature_error = std::max(quadrature_error, albedo.error);
+    // A lobe of constant weight has no deviation of its own: the quadrature's error stands in.
+    const double unit = deviation + 1e-6 + albedo.error / bound;
+    tally.Add((mean - expected) / unit, bound,
+              [&] { return c.Text() + Text(", mean %g, albedo %g", mean, expected); });
+  }
+  tally.Note(Text(", of %zu samples each, %zu nodes, quadrature error <= %.1e", kSamples, num_nodes,
+                  quadrature_error));
+}
+
+// For one facet, the share of u3 that reflects is F(wi.m).
+TEST(RoughDielectricSampler, LobesAreChosenByFresnel) {
+  constexpr int kSteps = 4096;
+  Tally tally("share of u3 that reflects = F");
+  for (const float u1 : {0.05f, 0.5f, 0.9f}) {
+    for (const float u2 : {0.1f, 0.4f, 0.8f}) {
+      for (const Distribution& distribution : {Ggx(0.1f, 0.3f), Beckmann(0.3f, 0.3f), Phong(40)}) {
+        for (const float eta : {1.5f, 1 / 1.5f, 1.1f, 4.0f}) {
+          for (const double theta : {5.0, 30.0, 50.0, 70.0}) {
+            for (const double side : {1.0, -1.0}) {
+              const DielectricCase c{distribution, eta, theta, side};
+              Column<double> u3;
+              for (int k = 0; k < kSteps; ++k) u3.push_back((k + 0.5) / kSteps);
+              const std::vector<Column<double>> out =
+                  RunAll<double>(distribution.Dielectric("sample"), kSteps, {}, c.wi(), double{u1},
+                                 double{u2}, u3, distribution, c.eta);
+              int reflected = 0, transmitted = 0;
+              double cos_i = 0;
+              for (int k = 0; k < kSteps; ++k) {
+                const int lobe = static_cast<int>(out[5][k]);
+                reflected += lobe == 1;
+                transmitted += lobe == 2;
+                if (lobe == 0) continue;
+                const Direction wo{out[0][k], out[1][k], out[2][k]};
+                cos_i = Dot(c.wi(), Normalized(c.wi() + (lobe == 1 ? 1 : c.eta) * wo));
+              }
+              // The facet may be invisible, or one lobe fail below its horizon: the other shows the share.
+              if (reflected + transmitted == 0) continue;
+              const double F = RunOne<double>("fresnel.dielectric", 1, {}, cos_i, c.eta)[0];
+              const double share =
+                  transmitted == 0 ? 1.0 * reflected / kSteps : 1 - 1.0 * transmitted / kSteps;
+              tally.Add(share - F, 1.0 / kSteps,
+                        [&] { return c.Text() + Text(", u1 %g u2 %g", double{u1}, double{u2}); });
+            }
+          }
+        }
+      }
+    }
+  }
+}
+
+// Random numbers over the unit square: a grid, and the lattice towards u1 = 1, where the tail is.
+struct SquarePoints {
+  Column<double> u1, u2;
+};
+
+SquarePoints TailPoints() {
+  std::vector<double> first;
+  for (int k = 0; k < 200; ++k) first.push_back(k / 200.0);
+  for (int k = 1; k <= 24; ++k) {
+    first.push_back(1 - std::ldexp(1.0, -k));
+    if (k < 24) first.push_back(1 - std::ldexp(1.5, -k - 1));
+  }
+  SquarePoints points;
+  for (const double u : first) {
+    for (int k = 0; k < 128; ++k) {
+      points.u1.push_back(u);
+      points.u2.push_back(k / 128.0);
+    }
+  }
+  return points;
+}
+
+// How large the weights of Walter 2007, Eq. 41 become; "as high as hundreds to millions", says his
+// section 5.3.
+TEST(RoughDielectricSampler, LargestWeightsAreFinite) {
+  const SquarePoints points = TailPoints();
+  const std::size_t n = points.u1.size();
+  Tally tally("weights of D cos sampling are finite");
+  for (const Distribution& distribution :
+       {Ggx(0.05f, 0.05f), Ggx(0.3f, 0.3f), Ggx(1, 1), Beckmann(0.05f, 0.05f), Beckmann(0.3f, 0.3f),
+        Beckmann(1, 1), Phong(798), Phong(20), Phong(0)}) {
+    std::string line;
+    for (const double theta : {0.0, 60.0, 80.0, 85.0, 89.0, 89.9}) {
+      double largest = 0;
+      for (const float eta : {1.5f, 1 / 1.5f}) {
+        const Direction wi = Spherical(Radians(theta), 0);
+        for (const double u3 : {0.0, 0.5, 1 - 0x1p-24}) {
+          const Column<double> weight = RunAll<double>(distribution.Dielectric("sample"), n, {}, wi,
+                                                       points.u1, points.u2, u3, distribution, eta)[3];
+          for (std::size_t i = 0; i < n; ++i) {
+            tally.Add(std::isfinite(weight[i]) && weight[i] >= 0 ? 0 : 1, 0,
+                      [&] { return distribution.Text() + Text(", %g degrees", theta); });
+            largest = std::max(largest, weight[i]);
+          }
+        }
+      }
+      line += Text(" %9.4g", largest);
+    }
+    std::printf("  %-30s largest weight at 0, 60, 80, 85, 89, 89.9 degrees:%s\n", distribution.Text().c_str(),
+                line.c_str());
+  }
+}
+
+// Walter 2007, section 5.3: at grazing, D cos sampling can give huge weights; with Beckmann's alpha widened
+// by 1.2 - 0.2 sqrt(|i.n|), "this reduces the maximum sample weight to roughly four".
+TEST(WidenedBeckmann, LargestWeightIsThatOfThePaper) {
+  const auto [u1, u2] = TailPoints();
+  const std::size_t n = u1.size();
+  std::size_t points = 0;
+  double largest_widened = 0, largest_plain = 0;
+  std::string where_widened, where_plain;
+  for (const float alpha : {0.01f, 0.05f, 0.1f, 0.2f, 0.344f, 0.5f, 0.7f, 1.0f}) {
+    const Distribution distribution = Beckmann(alpha, alpha);
+    double at_alpha[2] = {0, 0};
+    for (const double theta : {0.0, 20.0, 40.0, 60.0, 70.0, 75.0, 80.0, 83.0, 85.0, 87.0, 89.0, 89.9}) {
+      const Direction wi = Spherical(Radians(theta), 0);
+      const Column<double> cos_i(n, wi.z);
+      for (const bool widened : {true, false}) {
+        const std::vector<Column<double>> out =
+            widened ? RunAll<double>("beckmann.sample_normal_widened", n, {}, u1, u2, cos_i, distribution)
+                    : RunAll<double>("beckmann.sample_normal", n, {}, u1, u2, distribution);
+        const DirectionColumns<double> m{out[0], out[1], out[2]};
+        const Column<double> density = RunOne<double>("beckmann.D", n, {}, m, distribution);
+        for (const double eta : {1.0, 1.5, 1 / 1.5}) {  // 1: reflection
+          const DirectionColumns<double> wo = eta == 1 ? RunDirection<double>("reflect", n, {}, wi, m)
+                                                       : RunDirection<double>("refract", n, {}, wi, m, eta);
+          const Column<double> g1_i = RunOne<double>("beckmann.G1", n, {}, wi, m, distribution);
+          const Column<double> g1_o = RunOne<double>("beckmann.G1", n, {}, wo, m, distribution);
+          for (std::size_t i = 0; i < n; ++i) {
+            if (Dot(wo[i], wo[i]) < 0.5 || (wo.z[i] > 0) != (eta == 1) || out[3][i] == 0) continue;
+            ++points;
+            // Walter 2007, Eq. 41 with the density drawn from: f |cos| / pdf is |i.m| G D / (|i.n| pdf_m).
+            const double weight = Dot(wi, m[i]) * g1_i[i] * g1_o[i] * density[i] / (wi.z * out[3][i]);
+            double& largest = widened ? largest_widened : largest_plain;
+            double& here = at_alpha[widened ? 0 : 1];
+            here = std::max(here, weight);
+            if (weight > largest) {
+              largest = weight;
+              (widened ? where_widened : where_plain) =
+                  Text("alpha %g, %g degrees, eta %g, u1 %a, u2 %g, cos_m %.3g", double{alpha}, theta, eta,
+                       u1[i], u2[i], m.z[i]);
+            }
+          }
+        }
+      }
+    }
+    std::printf("  alpha %-6g largest weight: widened %-8.4g D cos %.4g\n", double{alpha}, at_alpha[0],
+                at_alpha[1]);
+  }
+  std::printf("  %zu points; largest weight widened %.4g at %s; D cos %.4g at %s\n", points, largest_widened,
+              where_widened.c_str(), largest_plain, where_plain.c_str());
+  EXPECT_LT(largest_widened, largest_plain);
+}
+
+template <class T>
+Column<T> EdgesOfUnitInterval() {
+  Column<T> u = {0, static_cast<T>(0x1p-32), static_cast<T>(0x1p-24), T{0.25}, T{0.5}, T{0.75}};
+  u.push_back(std::is_same_v<T, float> ? static_cast<T>(1 - 0x1p-24) : static_cast<T>(1 - 0x1p-53));
+  return u;
+}
+
+// All of the boundary of the unit square and cube.
+TEST(Samplers, EdgesOfTheRandomNumbersGiveUnitVectors) {
+  const auto test = [](auto lane, Accuracy accuracy, const std::string& name) {
+    using T = decltype(lane);
+    const Mode mode{accuracy};
+    const double tolerance = accuracy == Accuracy::kFast ? 0x1p-11 : 16 * kRounding<T>;
+    const Column<T> edges = EdgesOfUnitInterval<T>();
+    Column<T> u1, u2, u3;
+    for (const T a : edges) {
+      for (const T b : edges) {
+        for (const T c : edges) {
+          u1.push_back(a);
+          u2.push_back(b);
+          u3.push_back(c);
+        }
+      }
+    }
+    const std::size_t n = u1.size();
+    Tally normals("|m| = 1, mz >= 0, pdf finite, " + name), directions("|wo| = 1 on its side, " + name);
+    const auto finite = [](double x) { return std::isfinite(x) && x >= 0; };
+    std::vector<Distribution> distributions;
+    for (const auto& make : {Ggx, Beckmann}) {
+      for (const float alpha : {1e-5f, 0.01f, 0.3f, 1.0f, 100.0f})
+        distributions.push_back(make(alpha, alpha));
+      distributions.push_back(make(1e-4f, 1.0f));
+    }
+    for (const float exponent : {0.0f, 20.0f, 2e10f}) distributions.push_back(Phong(exponent));
+    for (const Distribution& distribution : distributions) {
+      const std::string family(distribution.family);
+      for (const float widening_cos : {0.0f, 1e-7f, 0.5f, 1.0f, -1.0f}) {
+        const bool widened = widening_cos >= 0;
+        if (widened && family != "beckmann") continue;
+        const std::vector<Column<T>> out =
+            widened
+                ? RunAll<T>(family + ".sample_normal_widened", n, mode, u1, u2, widening_cos, distribution)
+                : RunAll<T>(family + ".sample_normal", n, mode, u1, u2, distribution);
+        for (std::size_t i = 0; i < n; ++i) {
+          const auto where = [&] {
+            return distribution.Text() +
+                   Text(", u %a %a, cos %g", double{u1[i]}, double{u2[i]}, double{widening_cos});
+          };
+          const Direction m{double{out[0][i]}, double{out[1][i]}, double{out[2][i]}};
+          normals.Add(Length(m) - 1, tolerance, where);
+          normals.Add(finite(m.z) && finite(out[3][i]) ? 0 : 1, 0, where);
+        }
+      }
+      for (const float eta : {1.5f, 1 / 1.5f, 1.0f, 1.0003f, 4.0f}) {
+        for (const double theta : {0.0, 30.0, 41.8, 60.0, 85.0, 89.99}) {
+          for (const double side : {1.0, -1.0}) {
+            const Direction wi = side * Spherical(Radians(theta), 0.7);
+            const std::vector<Column<T>> out =
+                RunAll<T>(distribution.Dielectric("sample"), n, mode, wi, u1, u2, u3, distribution, eta);
+            for (std::size_t i = 0; i < n; ++i) {
+              const auto where = [&] {
+                return distribution.Text() + Text(", eta %g, %g degrees, side %g, u %a %a %a", double{eta},
+                                                  theta, side, double{u1[i]}, double{u2[i]}, double{u3[i]});
+              };
+              const Direction wo{double{out[0][i]}, double{out[1][i]}, double{out[2][i]}};
+              const double weight = out[3][i], pdf = out[4][i];
+              const int lobe = static_cast<int>(out[5][i]);
+              if (lobe == 0) {
+                directions.Add(std::abs(wo.x) + std::abs(wo.y) + std::abs(wo.z) + weight + pdf, 0, where);
+                continue;
+              }
+              // Refraction out of the denser side magnifies roundings by 1 / eta.
+              directions.Add(Length(wo) - 1, tolerance * (1 + 1 / (eta * eta)), where);
+              const bool right_side =
+                  (wo.z * wi.z > 0) == (lobe == 1) && wo.z != 0 && (lobe == 1 || lobe == 2);
+              directions.Add(right_side && finite(weight) && finite(pdf) ? 0 : 1, 0, where);
+            }
+          }
+        }
+      }
+    }
+  };
+  test(double{}, Accuracy::kStandard, "double");
+  test(float{}, Accuracy::kHigh, "float high");
+  test(float{}, Accuracy::kStandard, "float standard");
+  test(float{}, Accuracy::kFast, "float fast");
+}
+
+}  // namespace
+}  // namespace microlane
