@@ -117,8 +117,7 @@ void AddAccuracy(CLI::App& app, int& exit_code) {
       ->add_option(
           "--accuracy", request->accuracies,
           "high, standard, fast, or double for double lanes; may be repeated (the default: the first three)")
-      ->expected(1)
-      ->take_all();
+      ->allow_extra_args(false);
   accuracy->add_option("--target", request->target,
                        "An instruction set of this machine (the default: the best), scalar or scalar-double");
   accuracy->add_option(

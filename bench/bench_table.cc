@@ -102,13 +102,11 @@ void AddBench(CLI::App& app) {
   bench
       ->add_option("--accuracy", request->accuracies,
                    "high, standard or fast; may be repeated (the default: all)")
-      ->expected(1)
-      ->take_all();
+      ->allow_extra_args(false);
   bench
       ->add_option("--target", request->targets,
                    "An instruction set of this machine; may be repeated (the default: the best)")
-      ->expected(1)
-      ->take_all();
+      ->allow_extra_args(false);
   bench->add_option("--lanes", request->lanes, "Lanes in a call (the default: 4096)");
   bench->add_flag("--uniform", request->uniform, "One value for the batch in each parameter that allows it");
   bench->add_option("--seconds", request->seconds, "How long to repeat each measurement (the default: 0.03)");

@@ -32,8 +32,11 @@ struct Floor {
 // memory where operations cannot be counted.
 Floor MeasureFloor(std::size_t kernel, Accuracy accuracy, Parameters parameters);
 
-// The one path of code timed.
+// The ways to compute a kernel that are compared.
 enum class Path { kHigh, kStandard, kFast, kScalarFloat, kScalarDouble, kTextbook };
+inline constexpr std::size_t kPaths = 6;
+inline constexpr const char* kPathNames[kPaths] = {"high",         "standard",      "fast",
+                                                   "scalar float", "scalar double", "textbook"};
 
 // Nanoseconds per lane of batches of `workload` on the chosen target; `seconds` is how long to repeat.
 Timing MeasurePath(std::size_t kernel, Path path, const Workload& workload, double seconds);

@@ -57,7 +57,9 @@ struct NormalNodes {
 inline NormalNodes AllNormals(double scale_x, double scale_y, int num_azimuths = 48) {
   constexpr double kStep = 0.125, kEnd = 24;
   NormalNodes nodes;
-  for (double log_r = -kEnd; log_r <= kEnd; log_r += kStep) {
+  constexpr int kSteps = static_cast<int>(kEnd / kStep);
+  for (int j = -kSteps; j <= kSteps; ++j) {
+    const double log_r = j * kStep;
     const double r = std::exp(log_r);
     for (int k = 0; k < num_azimuths; ++k) {
       const double phi = (k + 0.5) * (2 * kTestPi / num_azimuths);
@@ -155,6 +157,7 @@ CellIntegrals IntegrateCells(const std::vector<Cell>& cells, double tolerance, c
   };
 
   std::vector<Piece> active;
+  active.reserve(cells.size());
   for (std::size_t c = 0; c < cells.size(); ++c) active.push_back({c, cells[c], 0});
   evaluate(active);
   for (int depth = 0; !active.empty(); ++depth, tolerance *= 0.5) {

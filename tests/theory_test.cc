@@ -63,8 +63,9 @@ std::vector<Distribution> SmithDistributions() {
 
 std::vector<Distribution> AllDistributions() {
   std::vector<Distribution> distributions = SmithDistributions();
-  for (const float exponent : {0.0f, 0.5f, 1.0f, 10.0f, 198.0f, 1e3f, 1e6f})
+  for (const float exponent : {0.0f, 0.5f, 1.0f, 10.0f, 198.0f, 1e3f, 1e6f}) {
     distributions.push_back(Phong(exponent));
+  }
   return distributions;
 }
 
@@ -96,8 +97,9 @@ TEST(Distribution, ProjectedAreaIsThatOfTheMacrosurface) {
       const NormalNodes nodes = AllNormals(distribution.scale_x, distribution.scale_y);
       const DirectionColumns<T> m = Rounded<T>(nodes.m);
       const Column<T> density = [&] {
-        if (distribution.family == "phong")
+        if (distribution.family == "phong") {
           return RunOne<T>("phong.D", m.size(), {accuracy}, m, distribution);
+        }
         return RunOne<T>(distribution.Id("D"), m.size(), {accuracy}, m, distribution);
       }();
       num_nodes += m.size();
@@ -183,12 +185,14 @@ TEST(Masking, ApproximateFormsMissTheProjectedAreaByLittle) {
     const Column<double> density =
         RunOne<double>(distribution.Id("D"), nodes.size(), {}, nodes.m, distribution);
     double area = 0;
-    for (std::size_t i = 0; i < nodes.size(); ++i)
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
       area += density[i] * nodes.solid_angle[i] * Dot(v, nodes.m[i]);
+    }
     return area * masking[0] / v.z - 1;
   };
   std::vector<double> angles;
-  for (double theta = 0; theta < 90; theta += 2.5) angles.push_back(theta);
+  angles.reserve(38);
+  for (int k = 0; k < 36; ++k) angles.push_back(2.5 * k);
   angles.insert(angles.end(), {89.0, 89.9});
 
   {
@@ -335,8 +339,9 @@ TEST(Masking, LambdaGrowsWithAngleAndRoughnessAndG1StaysInRange) {
           };
           // Values below the normal range keep no relative accuracy.
           const auto normal = [](double x) { return x > std::numeric_limits<T>::min(); };
-          if (i % kAngles != 0 && normal(column[i - 1]))
+          if (i % kAngles != 0 && normal(column[i - 1])) {
             growth.Add(fall(column[i - 1], column[i]), tolerance, where);
+          }
           if (i >= kAngles && normal(column[i - kAngles])) {
             growth.Add(fall(column[i - kAngles], column[i]), tolerance, where);
           }
@@ -459,8 +464,8 @@ TEST(Fresnel, NormalIncidenceAndBrewstersAngle) {
   ForEachLaneType([](auto lane, Accuracy accuracy, const std::string& name) {
     using T = decltype(lane);
     Column<T> eta, normal, brewster;
-    for (double e = 0.25; e <= 4; e *= 1.01) {
-      eta.push_back(static_cast<T>(e));
+    for (int k = 0; k <= 278; ++k) {
+      eta.push_back(static_cast<T>(0.25 * std::pow(1.01, k)));
       normal.push_back(1);
       brewster.push_back(static_cast<T>(1 / std::sqrt(1 + double{eta.back()} * eta.back())));
     }
@@ -510,8 +515,9 @@ Pairs ScatteredPairs(const Distribution& distribution, double eta, std::size_t c
     const Direction wo = i % 2 == 0 ? mirrored[i] : refracted[i];
     const bool same_side = wo.z * wi.z[i] > 0;
     // Facets seen from behind, total internal reflection, and what leaves on the wrong side.
-    if (Dot(wi[i], m[i]) * wi.z[i] <= 0 || Dot(wo, wo) < 0.5 || wo.z == 0 || same_side != (i % 2 == 0))
+    if (Dot(wi[i], m[i]) * wi.z[i] <= 0 || Dot(wo, wo) < 0.5 || wo.z == 0 || same_side != (i % 2 == 0)) {
       continue;
+    }
     pairs.wi.PushBack(wi[i]);
     pairs.wo.PushBack(wo);
     pairs.m.PushBack(m[i]);
@@ -558,8 +564,9 @@ TEST(Reciprocity, ReflectionIsSymmetricAndTransmissionUpToTheSquaredIndex) {
           const DirectionColumns<T> wi = Rounded<T>(pairs.wi), wo = Rounded<T>(pairs.wo);
           // Swapped, the two sides of a transmission change places.
           Column<T> back_eta;
-          for (std::size_t i = 0; i < n; ++i)
+          for (std::size_t i = 0; i < n; ++i) {
             back_eta.push_back(static_cast<T>(pairs.reflects[i] ? eta : 1 / eta));
+          }
           const std::string id = distribution.Dielectric(quantity);
           const Column<T> there = RunOne<T>(id, n, mode, wi, wo, distribution, eta);
           const Column<T> back = RunOne<T>(id, n, mode, wo, wi, distribution, back_eta);
@@ -765,8 +772,9 @@ TEST(HalfVector, OfARayAndItsReflectionOrRefractionIsTheFacet) {
                        [&] { return where(i, eta); });
         // Eq. 16: into the side of the lower index, which is wi's for eta > 1.
         const double towards = Dot(h_t[i], wi[i]) * (eta - 1);
-        if (towards <= 0)
+        if (towards <= 0) {
           refraction.Add(1, 0, [&] { return where(i, eta) + ", points into the higher index"; });
+        }
       }
     }
   });
@@ -854,8 +862,9 @@ Albedo DirectionalAlbedo(const Distribution& distribution, std::string_view quan
       // Only what leaves on the side of its lobe is of that lobe; at grazing the Jacobian has no meaning
       // left.
       const bool valid = Dot(wo[i], wo[i]) > 0.5 && (wo.z[i] * v.z > 0) == reflects && jacobian[i] > 0;
-      if (valid)
+      if (valid) {
         (reflects ? albedo.reflection : albedo.transmission) += f_cos[i] / jacobian[i] * nodes.solid_angle[i];
+      }
     }
   }
   return albedo;
@@ -915,9 +924,10 @@ TEST(SmoothLimit, SamplesAreTheMirrorAndTheRefractedRay) {
     constexpr int kGrid = 12;
     Column<T> u1, u2, u3;
     for (int i = 0; i < kGrid * kGrid * kGrid; ++i) {
-      u1.push_back(static_cast<T>((i % kGrid + 0.5) / kGrid));
-      u2.push_back(static_cast<T>((i / kGrid % kGrid + 0.5) / kGrid));
-      u3.push_back(static_cast<T>((i / kGrid / kGrid + 0.5) / kGrid));
+      const int first = i % kGrid, second = i / kGrid % kGrid, third = i / kGrid / kGrid;
+      u1.push_back(static_cast<T>((first + 0.5) / kGrid));
+      u2.push_back(static_cast<T>((second + 0.5) / kGrid));
+      u3.push_back(static_cast<T>((third + 0.5) / kGrid));
     }
     const std::size_t n = u1.size();
     const Direction up{0, 0, 1};

@@ -47,7 +47,7 @@ struct Beckmann {
   }
 
   // Lambda = factor exp(-a^2) / vz with a = vz/s (Heitz 2014 Eq. 69): factor = (1 - sqrt(pi) a erfcx(a)) s /
-  // (2 sqrt(pi)), every part positive. One root and one division, which gives 1/s^2 and t. Float lanes carry
+  // (2 sqrt(pi)), every part positive. Float lanes carry
   // the error of a^2, which exp multiplies.
   template <Accuracy A, class D, class... P>
   static HWY_INLINE void LambdaFactors(D d, Vec<D>& factor, Vec<D>& a2, Vec<D>& a2_tail, Vec<D> vx, Vec<D> vy,
@@ -59,9 +59,8 @@ struct Beckmann {
     const Vec<D> s2 = hn::Max(least, roughness2);
     const Vec<D> s = hn::Sqrt(s2);
     const Vec<D> y = hn::MulAdd(z, Const(d, 0.3), s);
-    const Vec<D> r = Reciprocal<A>(d, hn::Mul(s2, y));
-    const Vec<D> rs2 = hn::Mul(r, y);
-    const Vec<D> t = hn::Mul(hn::Mul(r, s2), s);
+    // IEEE divisions in every accuracy: near t = 1 the result takes six times the error of t.
+    const Vec<D> rs2 = hn::Div(Const(d, 1), s2), t = hn::Div(s, y);
     a2 = hn::Mul(z2, rs2);
     a2_tail = hn::Zero(d);
     if constexpr (A != Accuracy::kFast && kIsFloat<D>) {
@@ -95,7 +94,7 @@ struct Beckmann {
       Vec<D> factor, a2, a2_tail;
       const Vec<D> z = hn::Abs(vz);
       LambdaFactors<A>(d, factor, a2, a2_tail, vx, vy, z, p...);
-      const Vec<D> q = ExpTimes<A>(d, hn::Neg(a2), hn::Neg(a2_tail), Div<A>(d, factor, z));
+      const Vec<D> q = ExpTimes<A>(d, hn::Neg(a2), hn::Neg(a2_tail), hn::Div(factor, z));
       lambda = unused = ZeroIf(hn::Eq(hn::Add(hn::Abs(vx), hn::Abs(vy)), hn::Zero(d)), q);
     }
   };

@@ -124,6 +124,26 @@ HWY_INLINE void InDouble2(D d, Vec<D>& o0, Vec<D>& o1, In... in) {
   InDouble6<TwoOutputs<Op>>(d, o0, o1, o2, o3, o4, o5, in...);
 }
 
+struct FusedMulAddOp {
+  template <class DD>
+  static HWY_INLINE void Run(DD, Vec<DD>& sum, Vec<DD>& unused, Vec<DD> a, Vec<DD> b, Vec<DD> c) {
+    sum = unused = hn::MulAdd(a, b, c);
+  }
+};
+
+// a b + c rounded once on every target: float products are exact in double lanes.
+template <class D>
+HWY_INLINE Vec<D> FusedMulAdd(D d, Vec<D> a, Vec<D> b, Vec<D> c) {
+#if HWY_NATIVE_FMA
+  (void)d;
+  return hn::MulAdd(a, b, c);
+#else
+  Vec<D> sum, unused;
+  InDouble2<FusedMulAddOp>(d, sum, unused, a, b, c);
+  return sum;
+#endif
+}
+
 // Op::Run<kStandard> in double lanes, rounded once; with kFast, Op::Run<kFast> in the lanes given.
 template <class Op>
 struct InStandard {

@@ -54,7 +54,7 @@ struct Ggx {
     const Vec<D> root = Sqrt<A>(d, hn::MulAdd(z, z, s2));
     const Vec<D> half = Const(d, 0.5);
     const Vec<D> zs = hn::Mul(z, scale);
-    const Vec<D> q = Div<A>(d, hn::Mul(hn::Mul(s2, half), scale), hn::MulAdd(zs, root, hn::Mul(zs, z)));
+    const Vec<D> q = hn::Div(hn::Mul(hn::Mul(s2, half), scale), hn::MulAdd(zs, root, hn::Mul(zs, z)));
     return ZeroIf(hn::Eq(s2, hn::Zero(d)), q);
   }
 

@@ -32,9 +32,9 @@ HWY_INLINE void NormalizedSum(D d, Vec<D>& hx, Vec<D>& hy, Vec<D>& hz, Vec<D> ix
                               Vec<D> ox, Vec<D> oy, Vec<D> oz, Vec<D> e) {
   // A power of two keeps the bits of subnormal components.
   const Vec<D> up = Const(d, 0x1p64);
-  hx = hn::MulAdd(e, hn::Mul(ox, up), hn::Mul(ix, up));
-  hy = hn::MulAdd(e, hn::Mul(oy, up), hn::Mul(iy, up));
-  hz = hn::MulAdd(e, hn::Mul(oz, up), hn::Mul(iz, up));
+  hx = FusedMulAdd(d, e, hn::Mul(ox, up), hn::Mul(ix, up));
+  hy = FusedMulAdd(d, e, hn::Mul(oy, up), hn::Mul(iy, up));
+  hz = FusedMulAdd(d, e, hn::Mul(oz, up), hn::Mul(iz, up));
   const Vec<D> scale = PowerOfTwoScale(d, hx, hy, hz);
   hx = hn::Mul(hx, scale);
   hy = hn::Mul(hy, scale);
@@ -69,16 +69,16 @@ HWY_INLINE void HalfVectorRefraction(D d, Vec<D>& hx, Vec<D>& hy, Vec<D>& hz, Ve
 }
 
 // 1/(4 |o.h|), the second form of Walter 2007 Eq. 14.
-template <Accuracy A, class D>
+template <class D>
 HWY_INLINE Vec<D> ReflectionJacobian(D d, Vec<D> cos_o) {
-  return Div<A>(d, Const(d, 0.25), hn::Abs(cos_o));
+  return hn::Div(Const(d, 0.25), hn::Abs(cos_o));
 }
 
 // eta^2 |o.h| / (i.h + eta o.h)^2, the second form of Walter 2007 Eq. 17; the sum cancels for indices near 1.
 struct RefractionJacobianOp {
   template <Accuracy A, class D>
   static HWY_INLINE void Run(D d, Vec<D>& j, Vec<D>& unused, Vec<D> cos_i, Vec<D> cos_o, Vec<D> eta) {
-    const Vec<D> o = hn::Abs(cos_o), q = Div<A>(d, eta, hn::MulAdd(eta, cos_o, cos_i));
+    const Vec<D> o = hn::Abs(cos_o), q = hn::Div(eta, FusedMulAdd(d, eta, cos_o, cos_i));
     j = unused = ZeroIf(hn::Eq(o, hn::Zero(d)), hn::Mul(hn::Mul(q, o), q));
   }
 };

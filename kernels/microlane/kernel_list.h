@@ -13,9 +13,9 @@ namespace microlane {
 // the result type, over the inputs' domains. B ULP of float imply a relative error below B * 2^-23,
 // so 4096 ULP are 2^-11.
 struct Bounds {
-  float high;          // computed in double lanes, rounded once to float
-  float standard;      // float lanes, targets with a native FMA
-  float fast;          // float lanes, approximate reciprocals and roots
+  float high;            // computed in double lanes, rounded once to float
+  float standard;        // float lanes, targets with a native FMA
+  float fast;            // float lanes, approximate reciprocals and roots
   float standard_nofma;  // float lanes, targets without FMA (SSSE3, SSE4, SCALAR)
   double double_lanes;   // double lanes on every target, in ULP of double, for inputs that are floats
 };
@@ -23,7 +23,8 @@ struct Bounds {
 // How an output's error is scaled.
 enum class Metric {
   kUlp,        // |got - exact| / ulp(exact)
-  kDirection,  // component of a unit vector: |got - exact| / ulp(1); sampled refraction: / ulp(1 + wi.m / |g|)
+  kDirection,  // component of a unit vector: |got - exact| / ulp(1); sampled refraction: / ulp(1 + wi.m /
+               // |g|)
   // |got - exact| / (ulp(exact) * kappa), where kappa >= 1 is the amplification of an input rounding by
   // the geometry: kappa = (1 + 1/|wi.m|) (1 + (wi.m)^2/|g^2|) + 1/|wo.z|, g of Walter 2007 Eq. 22.
   kConditioned,
@@ -126,8 +127,11 @@ inline constexpr std::string_view kSampleNote =
     "wi.m > 0 on wi's side, else none; with both lobes u3 < F reflects. Outside its hemisphere: lobe 0, and every "
     "output 0. weight = f |cos(theta_o)| / pdf in closed form (Walter 41).";
 
-inline constexpr Bounds kComponent = {1, 4, 4096, 64, 64};
-inline constexpr Bounds kValue = {1, 16, 4096, 256, 1 << 20};
+inline constexpr Bounds kComponent = {1, 4, 4096, 8, 4096};
+inline constexpr Bounds kHalfVector = {1, 4, 4096, 8, 1 << 28};  // double lanes are not compensated where o.H cancels
+inline constexpr Bounds kSampler = {1, 16, 4096, 24, 4096};
+inline constexpr Bounds kValue = {1, 40, 4096, 64, 1 << 20};
+inline constexpr Bounds kPhongSample = {1, 128, 4096, 128, 1 << 20};  // 66 at u1 = 2^-149, where pdf is subnormal
 
 inline constexpr Kernel kKernels[] = {
     // Mathematics that Highway 1.0.3 lacks, as the kernels use it.
@@ -142,7 +146,7 @@ inline constexpr Kernel kKernels[] = {
     {"ggx.Lambda_isotropic", "vx vy vz | alpha", "Lambda", "Heitz 2014 Eq. 72", kLambdaNote, false, kComponent},
     {"ggx.G1", "vx vy vz mx my mz | alpha_x alpha_y", "G1", "Walter 2007 Eq. 34, stretched", kG1Note, false, kComponent},
     {"ggx.G1_isotropic", "vx vy vz mx my mz | alpha", "G1", "Walter 2007 Eq. 34", kG1Note, false, kComponent},
-    {"ggx.sample_normal", "u1 u2 | alpha_x alpha_y", "mx my mz pdf", "Walter 2007 Eqs. 24, 35, 36, stretched", "m = normalize(alpha_x r cos(2 pi u2), alpha_y r sin(2 pi u2), 1), r = sqrt(u1/(1 - u1)); pdf = D cos.", false, kComponent},
+    {"ggx.sample_normal", "u1 u2 | alpha_x alpha_y", "mx my mz pdf", "Walter 2007 Eqs. 24, 35, 36, stretched", "m = normalize(alpha_x r cos(2 pi u2), alpha_y r sin(2 pi u2), 1), r = sqrt(u1/(1 - u1)); pdf = D cos.", false, kSampler},
 
     {"beckmann.D", "mx my mz | alpha_x alpha_y", "D", "Heitz 2014 Eq. 82; Walter 2007 Eq. 25", kStretch, false, kComponent},
     {"beckmann.D_isotropic", "mx my mz | alpha", "D", "Walter 2007 Eq. 25", kStretch, false, kComponent},
@@ -151,28 +155,28 @@ inline constexpr Kernel kKernels[] = {
     {"beckmann.G1", "vx vy vz mx my mz | alpha_x alpha_y", "G1", "Walter 2007 Eq. 26, stretched", kG1Note, false, kComponent},
     {"beckmann.G1_isotropic", "vx vy vz mx my mz | alpha", "G1", "Walter 2007 Eq. 26", kG1Note, false, kComponent},
     {"beckmann.G1_rational", "vx vy vz mx my mz | alpha_x alpha_y", "G1", "Walter 2007 Eq. 27, clamped at 1", "The error bound is against Eq. 27; Eq. 27 itself is within 0.313% of Eq. 26.", false, kComponent},
-    {"beckmann.sample_normal", "u1 u2 | alpha_x alpha_y", "mx my mz pdf", "Walter 2007 Eqs. 24, 28, 29, stretched", "m = normalize(alpha_x r cos(2 pi u2), alpha_y r sin(2 pi u2), 1), r = sqrt(-log(1 - u1)); pdf = D cos.", false, kComponent},
-    {"beckmann.sample_normal_widened", "u1 u2 cos_i | alpha_x alpha_y", "mx my mz pdf", "Walter 2007 section 5.3", "beckmann.sample_normal with both alphas times 1.2 - 0.2 sqrt(|cos_i|).", false, kComponent},
+    {"beckmann.sample_normal", "u1 u2 | alpha_x alpha_y", "mx my mz pdf", "Walter 2007 Eqs. 24, 28, 29, stretched", "m = normalize(alpha_x r cos(2 pi u2), alpha_y r sin(2 pi u2), 1), r = sqrt(-log(1 - u1)); pdf = D cos.", false, kSampler},
+    {"beckmann.sample_normal_widened", "u1 u2 cos_i | alpha_x alpha_y", "mx my mz pdf", "Walter 2007 section 5.3", "beckmann.sample_normal with both alphas times 1.2 - 0.2 sqrt(|cos_i|).", false, kSampler},
 
     {"phong.exponent", "alpha", "exponent", "Walter 2007, after Eq. 30: 2/alpha^2 - 2", "0 for alpha >= 1.", false, kComponent},
     {"phong.D", "mx my mz | exponent", "D", "Walter 2007 Eq. 30", "(exponent + 2)/(2 pi) mz^exponent of mz as given; 0 where mz <= 0.", false, kComponent},
     {"phong.G1", "vx vy vz mx my mz | exponent", "G1", "Walter 2007 Eq. 27 with a = sqrt(0.5 exponent + 1)/tan(theta_v), clamped at 1", kG1Note, false, kComponent},
-    {"phong.sample_normal", "u1 u2 | exponent", "mx my mz pdf", "Walter 2007 Eqs. 24, 31, 32", "cos(theta_m) = u1^(1/(exponent + 2)); pdf = D cos.", false, kComponent},
+    {"phong.sample_normal", "u1 u2 | exponent", "mx my mz pdf", "Walter 2007 Eqs. 24, 31, 32", "cos(theta_m) = u1^(1/(exponent + 2)); pdf = D cos.", false, kSampler},
 
     {"fresnel.dielectric", "cos_i | eta", "F", "Walter 2007 Eq. 22", kFresnelNote, false, kComponent},
     {"fresnel.dielectric_transmittance", "cos_i | eta", "T", "1 - F, Walter 2007 Eq. 22", "|cos_i| is used; 0 under total internal reflection; 1 at eta = 1.", false, kComponent},
     {"fresnel.dielectric_s", "cos_i | eta", "F", "Walter 2007 Eq. 22, first factor: ((g - c)/(g + c))^2", kFresnelNote, false, kComponent},
     {"fresnel.dielectric_p", "cos_i | eta", "F", "Walter 2007 Eq. 22, the part polarised in the plane of incidence: ((eta^2 c - g)/(eta^2 c + g))^2", kFresnelNote, false, kComponent},
 
-    {"half_vector.reflection", "wix wiy wiz wox woy woz", "hx hy hz", "Walter 2007 Eq. 13", "0 where wi = -wo; sign(0) = 1.", false, kComponent},
-    {"half_vector.reflection_jacobian", "wix wiy wiz wox woy woz", "jacobian", "Walter 2007 Eq. 14, first form |o.h|/|h_r|^2", "0 where wi = -wo.", false, kComponent},
-    {"half_vector.reflection_jacobian_cos", "cos_o", "jacobian", "Walter 2007 Eq. 14, second form 1/(4 |o.h|)", "The largest finite number at 0.", false, kComponent},
-    {"half_vector.refraction", "wix wiy wiz wox woy woz | eta", "hx hy hz", "Walter 2007 Eq. 16; Marschner 2012: -normalize(i + n o)", "Points into the side of lower index; 0 where i + eta o = 0.", false, kComponent},
-    {"half_vector.refraction_jacobian", "wix wiy wiz wox woy woz | eta", "jacobian", "Walter 2007 Eq. 17, first form; Marschner 2012: n^2 |o.h|/|i + n o|^2", "0 where i + eta o = 0.", false, kComponent},
-    {"half_vector.refraction_jacobian_cos", "cos_i cos_o | eta", "jacobian", "Walter 2007 Eq. 17, second form eta^2 |o.h|/(i.h + eta o.h)^2", "cos_i = i.h, cos_o = o.h; the largest finite number where the denominator is 0, and 0 where cos_o is 0.", false, kComponent},
+    {"half_vector.reflection", "wix wiy wiz wox woy woz", "hx hy hz", "Walter 2007 Eq. 13", "0 where wi = -wo; sign(0) = 1.", false, kHalfVector},
+    {"half_vector.reflection_jacobian", "wix wiy wiz wox woy woz", "jacobian", "Walter 2007 Eq. 14, first form |o.h|/|h_r|^2", "0 where wi = -wo.", false, kHalfVector},
+    {"half_vector.reflection_jacobian_cos", "cos_o", "jacobian", "Walter 2007 Eq. 14, second form 1/(4 |o.h|)", "The largest finite number at 0.", false, kHalfVector},
+    {"half_vector.refraction", "wix wiy wiz wox woy woz | eta", "hx hy hz", "Walter 2007 Eq. 16; Marschner 2012: -normalize(i + n o)", "Points into the side of lower index; 0 where i + eta o = 0.", false, kHalfVector},
+    {"half_vector.refraction_jacobian", "wix wiy wiz wox woy woz | eta", "jacobian", "Walter 2007 Eq. 17, first form; Marschner 2012: n^2 |o.h|/|i + n o|^2", "0 where i + eta o = 0.", false, kHalfVector},
+    {"half_vector.refraction_jacobian_cos", "cos_i cos_o | eta", "jacobian", "Walter 2007 Eq. 17, second form eta^2 |o.h|/(i.h + eta o.h)^2", "cos_i = i.h, cos_o = o.h; the largest finite number where the denominator is 0, and 0 where cos_o is 0.", false, kHalfVector},
 
-    {"reflect", "wix wiy wiz mx my mz", "wox woy woz", "Walter 2007 Eq. 39, as 2 (i.m) m - i", "", false, kComponent},
-    {"refract", "wix wiy wiz mx my mz | eta", "wox woy woz", "Walter 2007 Eq. 40", "sign(i.n) is sign(wiz), sign(0) = 1; 0 under total internal reflection.", false, kComponent},
+    {"reflect", "wix wiy wiz mx my mz", "wox woy woz", "Walter 2007 Eq. 39, as 2 (i.m) m - i", "", false, kHalfVector},
+    {"refract", "wix wiy wiz mx my mz | eta", "wox woy woz", "Walter 2007 Eq. 40", "sign(i.n) is sign(wiz), sign(0) = 1; 0 under total internal reflection.", false, kHalfVector},
 
     {"rough_dielectric.eval", "wix wiy wiz wox woy woz | alpha_x alpha_y eta", "f_cos", "Walter 2007 Eqs. 19-21, GGX; Heitz 2014 Eq. 99", kEvalNote, true, kValue},
     {"rough_dielectric.eval_reflection", "wix wiy wiz wox woy woz | alpha_x alpha_y eta", "f_cos", "Walter 2007 Eq. 20, GGX; Heitz 2014 Eq. 99", kEvalNote, false, kValue},
@@ -202,7 +206,7 @@ inline constexpr Kernel kKernels[] = {
     {"rough_dielectric_phong.eval_transmission", "wix wiy wiz wox woy woz | exponent eta", "f_cos", "Walter 2007 Eq. 21, Phong; Heitz 2014 Eq. 99", kEvalNote, true, kValue},
     {"rough_dielectric_phong.pdf", "wix wiy wiz wox woy woz | exponent eta", "pdf", "Walter 2007 Eqs. 24, 38, section 5.3, Phong", kPdfNote, false, kValue},
     {"rough_dielectric_phong.eval_pdf", "wix wiy wiz wox woy woz | exponent eta", "f_cos pdf", "rough_dielectric_phong.eval and .pdf in one call", kEvalNote, true, kValue},
-    {"rough_dielectric_phong.sample", "wix wiy wiz u1 u2 u3 | exponent eta", "wox woy woz weight pdf lobe", "Walter 2007 section 5.3, Eqs. 31, 32, 37-41, Phong", kSampleNote, true, kValue},
+    {"rough_dielectric_phong.sample", "wix wiy wiz u1 u2 u3 | exponent eta", "wox woy woz weight pdf lobe", "Walter 2007 section 5.3, Eqs. 31, 32, 37-41, Phong", kSampleNote, true, kPhongSample},
 };
 // clang-format on
 
@@ -259,7 +263,8 @@ constexpr const Output& FindOutput(std::string_view name) {
 // A sampled direction's density is a function of the random numbers through the geometry, so it is
 // judged as the weight is; every other output has the metric of its name.
 constexpr Metric MetricOf(const Kernel& kernel, std::string_view output) {
-  const bool samples_direction = kernel.outputs.size() > 4 && kernel.outputs.substr(kernel.outputs.size() - 4) == "lobe";
+  const bool samples_direction =
+      kernel.outputs.size() > 4 && kernel.outputs.substr(kernel.outputs.size() - 4) == "lobe";
   return samples_direction && output == "pdf" ? Metric::kConditioned : FindOutput(output).metric;
 }
 

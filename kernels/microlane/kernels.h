@@ -1,5 +1,5 @@
-// Every kernel by its index in the kernel list: for tools and tests, which are driven by the list. A program that
-// links this links every kernel; the family headers (ggx.h, ...) link one object per family.
+// Every kernel by its index in the kernel list: for tools and tests, which are driven by the list. A program
+// that links this links every kernel; the family headers (ggx.h, ...) link one object per family.
 #ifndef MICROLANE_KERNELS_H_
 #define MICROLANE_KERNELS_H_
 

@@ -14,8 +14,8 @@ enum class Accuracy {
 };
 
 // What flows from wi to wo. Radiance: the BSDF of Walter 2007 Eq. 21 as printed, with its eta^2, for light
-// that comes from wi. Importance: its adjoint, without eta^2, for paths traced from the camera, where wi points
-// back along the path and wo towards the light.
+// that comes from wi. Importance: its adjoint, without eta^2, for paths traced from the camera, where wi
+// points back along the path and wo towards the light.
 enum class Transport { kRadiance, kImportance };
 
 // n directions as three arrays of n components each, in the shading frame (z along the normal), pointing away
@@ -44,8 +44,8 @@ MutableDirections(T*, T*, T*) -> MutableDirections<T>;
 template <class T>
 class Parameter {
  public:
-  Parameter(T value) : value_(value) {}           // NOLINT(google-explicit-constructor)
-  Parameter(const T* lanes) : lanes_(lanes) {}    // NOLINT(google-explicit-constructor)
+  Parameter(T value) : value_(value) {}         // NOLINT(google-explicit-constructor)
+  Parameter(const T* lanes) : lanes_(lanes) {}  // NOLINT(google-explicit-constructor)
   bool uniform() const { return lanes_ == nullptr; }
   const T* data() const { return uniform() ? &value_ : lanes_; }
 
@@ -61,8 +61,8 @@ struct NotDeduced {
 };
 }  // namespace packets_internal
 
-// How batch functions take a view: T is deduced from their outputs alone, so whatever converts to the view will do
-// (braces, literals, pointers, MutableDirections for Directions).
+// How batch functions take a view: T is deduced from their outputs alone, so whatever converts to the view
+// will do (braces, literals, pointers, MutableDirections for Directions).
 template <class T>
 using DirectionsOf = typename packets_internal::NotDeduced<Directions<T>>::Type;
 template <class T>

@@ -74,19 +74,18 @@ struct Phong {
     InDouble2<RootOp>(d, high, low, u1, exponent);
     const Vec<D> cos_m = Exp<A>(d, high, low);
     // sin^2 = -expm1(2 log cos): by its series near the normal.
-    const Vec<D> x = hn::Add(high, high);
-    const Vec<D> series =
-        hn::Mul(x, hn::MulAdd(x,
-                              Polynomial(d, x,
-                                         {0.5, 1.0 / 6, 1.0 / 24, 1.0 / 120, 1.0 / 720, 1.0 / 5040,
-                                          1.0 / 40320, 1.0 / 362880, 1.0 / 3628800}),
-                              one));
-    const Vec<D> sin2 = hn::IfThenElse(hn::Gt(x, Const(d, -0.1)), hn::Sub(hn::Neg(series), hn::Add(low, low)),
-                                       hn::NegMulAdd(cos_m, cos_m, one));
+    const Vec<D> x = hn::Add(hn::Add(high, high), hn::Add(low, low));
+    const Vec<D> series = hn::MulAdd(
+        hn::Mul(x, x),
+        Polynomial(d, x,
+                   {0.5, 1.0 / 6, 1.0 / 24, 1.0 / 120, 1.0 / 720, 1.0 / 5040, 1.0 / 40320, 1.0 / 362880}),
+        x);
+    const Vec<D> sin2 =
+        hn::IfThenElse(hn::Gt(x, Const(d, -0.1)), hn::Neg(series), hn::NegMulAdd(cos_m, cos_m, one));
     Vec<D> sin_phi, cos_phi;
     SinCos2Pi<A>(d, u2, sin_phi, cos_phi);
-    const Vec<D> sin_m = Sqrt<A>(d, hn::Max(sin2, zero));
     const auto none = hn::Le(u1, zero);
+    const Vec<D> sin_m = hn::IfThenElse(none, one, Sqrt<A>(d, hn::Max(zero, sin2)));
     mx = hn::Mul(sin_m, cos_phi);
     my = hn::Mul(sin_m, sin_phi);
     mz = ZeroIf(none, cos_m);

@@ -157,9 +157,9 @@ HWY_INLINE void RoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& value, Ve
 
   Vec<D> hx, hy, hz, scale = one;
   if constexpr (kTransmits) {
-    hx = hn::MulAdd(e, ox, ix);
-    hy = hn::MulAdd(e, oy, iy);
-    hz = hn::MulAdd(e, oz, iz);
+    hx = FusedMulAdd(d, e, ox, ix);
+    hy = FusedMulAdd(d, e, oy, iy);
+    hz = FusedMulAdd(d, e, oz, iz);
   } else {
     hx = hn::Add(ox, ix);
     hy = hn::Add(oy, iy);
@@ -397,8 +397,8 @@ HWY_INLINE void SampleRoughDielectric(D d, hn::Mask<D> radiance, Vec<D>& ox, Vec
   weight = ZeroIf(invalid, Div<A>(d, numerator, hn::Mul(hn::Mul(mz, masking), lobe_factor)));
   // Jacobians of Eqs. 14 and 17: 1/(4 c), and eta^2 (g/eta) / (c - g)^2 with c - g = -(eta^2 - 1)/(g + c).
   const Vec<D> gc_over_k = hn::Mul(gc, gc);
-  const Vec<D> jacobian = Div<A>(d, hn::IfThenElse(reflects, one, hn::Mul(hn::Mul(eta, g), gc_over_k)),
-                                 hn::IfThenElse(reflects, hn::Mul(Const(d, 4), c), hn::Mul(k, k)));
+  const Vec<D> jacobian = hn::Div(hn::IfThenElse(reflects, one, hn::Mul(hn::Mul(eta, g), gc_over_k)),
+                                  hn::IfThenElse(reflects, hn::Mul(Const(d, 4), c), hn::Mul(k, k)));
   pdf = ZeroIf(invalid,
                hn::Mul(hn::Mul(pdf_m, jacobian), hn::IfThenElse(reflects, reflectance, transmittance)));
   ox = ZeroIf(invalid, ox);

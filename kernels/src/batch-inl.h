@@ -2,7 +2,8 @@
 //
 // A kernel is a struct with its id and
 //   template <Accuracy A, class D, class... V>
-//   static void Eval(D d, const Options<D>& options, const Outputs<D>& out, V... inputs in the kernel list's order)
+//   static void Eval(D d, const Options<D>& options, const Outputs<D>& out, V... inputs in the kernel list's
+//   order)
 #if defined(MICROLANE_SRC_BATCH_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef MICROLANE_SRC_BATCH_INL_H_
 #undef MICROLANE_SRC_BATCH_INL_H_
@@ -64,8 +65,9 @@ HWY_INLINE void StoreTotal(D d, Vec<D> y, T<D>* to, V... in) {
   hn::StoreU(y, d, to);
 }
 
-// Runs K over n lanes. Inputs I... are loaded in every iteration (those that are one value from a spread copy);
-// `uniform` are the inputs behind them, the same in all iterations, so that what K derives from them is hoisted.
+// Runs K over n lanes. Inputs I... are loaded in every iteration (those that are one value from a spread
+// copy); `uniform` are the inputs behind them, the same in all iterations, so that what K derives from them
+// is hoisted.
 template <class K, Accuracy A, class D, std::size_t... I, class... V>
 HWY_INLINE void Loop(D d, const Call<T<D>>& call, std::size_t n, std::index_sequence<I...>, V... uniform) {
   using TD = T<D>;

@@ -32,8 +32,8 @@ struct BeckmannRational : Beckmann {
 struct SampleNormalWidenedKernel {
   static constexpr std::string_view kId = kSampleNormalWidenedId;
   template <Accuracy A, class D>
-  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, Vec<D> u1, Vec<D> u2, Vec<D> cos_i,
-                              Vec<D> alpha_x, Vec<D> alpha_y) {
+  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, Vec<D> u1, Vec<D> u2,
+                              Vec<D> cos_i, Vec<D> alpha_x, Vec<D> alpha_y) {
     const Vec<D> factor = Beckmann::Widening<A>(d, cos_i);
     Beckmann::SampleNormal<A>(d, out.v0, out.v1, out.v2, out.v3, u1, u2, hn::Mul(alpha_x, factor),
                               hn::Mul(alpha_y, factor));
@@ -42,8 +42,8 @@ struct SampleNormalWidenedKernel {
 
 FamilyCode FamilyOnTarget() {
   return Family<DKernel<Beckmann, kDId>, DKernel<Beckmann, kDIsotropicId>, LambdaKernel<Beckmann, kLambdaId>,
-                LambdaKernel<Beckmann, kLambdaIsotropicId>, G1Kernel<Beckmann, kG1Id>, G1Kernel<Beckmann, kG1IsotropicId>,
-                SampleNormalKernel<Beckmann, kSampleNormalId>,
+                LambdaKernel<Beckmann, kLambdaIsotropicId>, G1Kernel<Beckmann, kG1Id>,
+                G1Kernel<Beckmann, kG1IsotropicId>, SampleNormalKernel<Beckmann, kSampleNormalId>,
                 G1Kernel<BeckmannRational, kG1RationalId>, SampleNormalWidenedKernel>();
 }
 

@@ -11,6 +11,7 @@ namespace microlane {
 namespace {
 
 std::size_t TableIndex(std::int64_t target) {
+  if ((HWY_TARGETS & (HWY_TARGETS - 1)) == 0) return 0;  // one target: HWY_EXPORT makes a table of one
   hwy::ChosenTarget chosen;
   chosen.Update(target);
   return chosen.GetIndex();
@@ -51,7 +52,8 @@ Choice& Chosen() {
 
 std::vector<std::string> SupportedTargets() {
   std::vector<std::string> names;
-  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) names.emplace_back(hwy::TargetName(target));
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets())
+    names.emplace_back(hwy::TargetName(target));
   return names;
 }
 
@@ -83,8 +85,12 @@ std::size_t ChosenTableIndex() { return Chosen().index.load(std::memory_order_re
 
 const KernelCode& FindKernel(const FamilyFunction* table, std::string_view id) {
   const FamilyCode family = table[ChosenTableIndex()]();
+  // The caller names a kernel of this family, mostly by the very literal that the table holds.
+  for (std::size_t i = 0; i < family.count; ++i) {
+    if (family.kernels[i].id.data() == id.data()) return family.kernels[i];
+  }
   std::size_t i = 0;
-  while (family.kernels[i].id != id) ++i;  // the caller names a kernel of this family
+  while (family.kernels[i].id != id) ++i;
   return family.kernels[i];
 }
 

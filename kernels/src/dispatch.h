@@ -33,7 +33,9 @@ std::size_t ChosenTableIndex();
 const KernelCode& FindKernel(const FamilyFunction* table, std::string_view id);
 
 inline void Run(const KernelCode& code, Accuracy accuracy, const Call<float>& call, std::size_t n) {
-  (accuracy == Accuracy::kHigh ? code.high : accuracy == Accuracy::kFast ? code.fast : code.standard)(call, n);
+  (accuracy == Accuracy::kHigh   ? code.high
+   : accuracy == Accuracy::kFast ? code.fast
+                                 : code.standard)(call, n);
 }
 inline void Run(const KernelCode& code, Accuracy, const Call<double>& call, std::size_t n) {
   code.double_lanes(call, n);

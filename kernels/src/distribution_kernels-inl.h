@@ -18,7 +18,8 @@ template <class Dist, const std::string_view& kName>
 struct DKernel {
   static constexpr std::string_view kId = kName;
   template <Accuracy A, class D, class... P>
-  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, Vec<D> mx, Vec<D> my, Vec<D> mz, P... p) {
+  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, Vec<D> mx, Vec<D> my, Vec<D> mz,
+                              P... p) {
     out.v0 = NormalDensity<Dist, A>(d, mx, my, mz, p...);
   }
 };
@@ -27,7 +28,8 @@ template <class Dist, const std::string_view& kName>
 struct LambdaKernel {
   static constexpr std::string_view kId = kName;
   template <Accuracy A, class D, class... P>
-  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, Vec<D> vx, Vec<D> vy, Vec<D> vz, P... p) {
+  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, Vec<D> vx, Vec<D> vy, Vec<D> vz,
+                              P... p) {
     out.v0 = Dist::template Lambda<A>(d, vx, vy, vz, p...);
   }
 };
@@ -36,8 +38,8 @@ template <class Dist, const std::string_view& kName>
 struct G1Kernel {
   static constexpr std::string_view kId = kName;
   template <Accuracy A, class D, class... P>
-  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, Vec<D> vx, Vec<D> vy, Vec<D> vz, Vec<D> mx,
-                              Vec<D> my, Vec<D> mz, P... p) {
+  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, Vec<D> vx, Vec<D> vy, Vec<D> vz,
+                              Vec<D> mx, Vec<D> my, Vec<D> mz, P... p) {
     out.v0 = G1<Dist, A>(d, vx, vy, vz, mx, my, mz, p...);
   }
 };

@@ -19,7 +19,6 @@ constexpr std::string_view kG1Id = "ggx.G1";
 constexpr std::string_view kG1IsotropicId = "ggx.G1_isotropic";
 constexpr std::string_view kSampleNormalId = "ggx.sample_normal";
 
-
 FamilyCode FamilyOnTarget() {
   return Family<DKernel<Ggx, kDId>, DKernel<Ggx, kDIsotropicId>, LambdaKernel<Ggx, kLambdaId>,
                 LambdaKernel<Ggx, kLambdaIsotropicId>, G1Kernel<Ggx, kG1Id>, G1Kernel<Ggx, kG1IsotropicId>,

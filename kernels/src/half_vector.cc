@@ -14,8 +14,8 @@ namespace {
 struct ReflectionKernel {
   static constexpr std::string_view kId = "half_vector.reflection";
   template <Accuracy A, class D>
-  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, Vec<D> ix, Vec<D> iy, Vec<D> iz, Vec<D> ox,
-                              Vec<D> oy, Vec<D> oz) {
+  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, Vec<D> ix, Vec<D> iy, Vec<D> iz,
+                              Vec<D> ox, Vec<D> oy, Vec<D> oz) {
     HalfVectorReflection<A>(d, out.v0, out.v1, out.v2, ix, iy, iz, ox, oy, oz);
   }
 };
@@ -23,8 +23,8 @@ struct ReflectionKernel {
 struct ReflectionJacobianKernel {
   static constexpr std::string_view kId = "half_vector.reflection_jacobian";
   template <Accuracy A, class D>
-  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, Vec<D> ix, Vec<D> iy, Vec<D> iz, Vec<D> ox,
-                              Vec<D> oy, Vec<D> oz) {
+  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, Vec<D> ix, Vec<D> iy, Vec<D> iz,
+                              Vec<D> ox, Vec<D> oy, Vec<D> oz) {
     out.v0 = HalfVectorJacobian<A>(d, ix, iy, iz, ox, oy, oz, Const(d, 1));
   }
 };
@@ -33,15 +33,15 @@ struct ReflectionJacobianCosKernel {
   static constexpr std::string_view kId = "half_vector.reflection_jacobian_cos";
   template <Accuracy A, class D>
   static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, Vec<D> cos_o) {
-    out.v0 = ReflectionJacobian<A>(d, cos_o);
+    out.v0 = ReflectionJacobian(d, cos_o);
   }
 };
 
 struct RefractionKernel {
   static constexpr std::string_view kId = "half_vector.refraction";
   template <Accuracy A, class D>
-  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, Vec<D> ix, Vec<D> iy, Vec<D> iz, Vec<D> ox,
-                              Vec<D> oy, Vec<D> oz, Vec<D> eta) {
+  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, Vec<D> ix, Vec<D> iy, Vec<D> iz,
+                              Vec<D> ox, Vec<D> oy, Vec<D> oz, Vec<D> eta) {
     HalfVectorRefraction<A>(d, out.v0, out.v1, out.v2, ix, iy, iz, ox, oy, oz, eta);
   }
 };
@@ -49,8 +49,8 @@ struct RefractionKernel {
 struct RefractionJacobianKernel {
   static constexpr std::string_view kId = "half_vector.refraction_jacobian";
   template <Accuracy A, class D>
-  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, Vec<D> ix, Vec<D> iy, Vec<D> iz, Vec<D> ox,
-                              Vec<D> oy, Vec<D> oz, Vec<D> eta) {
+  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, Vec<D> ix, Vec<D> iy, Vec<D> iz,
+                              Vec<D> ox, Vec<D> oy, Vec<D> oz, Vec<D> eta) {
     out.v0 = HalfVectorJacobian<A>(d, ix, iy, iz, ox, oy, oz, eta);
   }
 };
@@ -58,7 +58,8 @@ struct RefractionJacobianKernel {
 struct RefractionJacobianCosKernel {
   static constexpr std::string_view kId = "half_vector.refraction_jacobian_cos";
   template <Accuracy A, class D>
-  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, Vec<D> cos_i, Vec<D> cos_o, Vec<D> eta) {
+  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, Vec<D> cos_i, Vec<D> cos_o,
+                              Vec<D> eta) {
     out.v0 = RefractionJacobian<A>(d, cos_i, cos_o, eta);
   }
 };
@@ -66,8 +67,8 @@ struct RefractionJacobianCosKernel {
 struct ReflectKernel {
   static constexpr std::string_view kId = "reflect";
   template <Accuracy A, class D>
-  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, Vec<D> ix, Vec<D> iy, Vec<D> iz, Vec<D> mx,
-                              Vec<D> my, Vec<D> mz) {
+  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, Vec<D> ix, Vec<D> iy, Vec<D> iz,
+                              Vec<D> mx, Vec<D> my, Vec<D> mz) {
     Reflect(d, out.v0, out.v1, out.v2, ix, iy, iz, mx, my, mz);
   }
 };
@@ -75,8 +76,8 @@ struct ReflectKernel {
 struct RefractKernel {
   static constexpr std::string_view kId = "refract";
   template <Accuracy A, class D>
-  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, Vec<D> ix, Vec<D> iy, Vec<D> iz, Vec<D> mx,
-                              Vec<D> my, Vec<D> mz, Vec<D> eta) {
+  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, Vec<D> ix, Vec<D> iy, Vec<D> iz,
+                              Vec<D> mx, Vec<D> my, Vec<D> mz, Vec<D> eta) {
     Refract<A>(d, out.v0, out.v1, out.v2, ix, iy, iz, mx, my, mz, eta);
   }
 };

@@ -37,12 +37,14 @@ struct ErfcxDefectKernel {
   static constexpr std::string_view kId = "math.erfcx_defect";
   template <Accuracy A, class D>
   static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, Vec<D> a) {
-    const Vec<D> t = Reciprocal<A>(d, hn::MulAdd(a, Const(d, 0.3), Const(d, 1)));
-    out.v0 = hn::Mul(hn::Mul(t, t), ErfcxDefectOverT2<A>(d, t));
+    Vec<D> unused;
+    Precisely<ErfcxDefectOp, A>(d, out.v0, unused, a);
   }
 };
 
-FamilyCode FamilyOnTarget() { return Family<ExpKernel, NegLog1mKernel, SinCos2PiKernel, ErfcxDefectKernel>(); }
+FamilyCode FamilyOnTarget() {
+  return Family<ExpKernel, NegLog1mKernel, SinCos2PiKernel, ErfcxDefectKernel>();
+}
 
 }  // namespace
 }  // namespace HWY_NAMESPACE

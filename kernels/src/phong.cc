@@ -32,7 +32,8 @@ struct PhongDKernel {
 };
 
 FamilyCode FamilyOnTarget() {
-  return Family<ExponentKernel, PhongDKernel, G1Kernel<Phong, kG1Id>, SampleNormalKernel<Phong, kSampleNormalId>>();
+  return Family<ExponentKernel, PhongDKernel, G1Kernel<Phong, kG1Id>,
+                SampleNormalKernel<Phong, kSampleNormalId>>();
 }
 
 }  // namespace

@@ -23,8 +23,10 @@ constexpr std::string_view kSample = "rough_dielectric_beckmann.sample";
 FamilyCode FamilyOnTarget() {
   return Family<
       RoughDielectricKernel<Beckmann, Lobes::kBoth, JointMasking::kHeightCorrelated, true, false, kEval>,
-      RoughDielectricKernel<Beckmann, Lobes::kReflection, JointMasking::kHeightCorrelated, true, false, kEvalReflection>,
-      RoughDielectricKernel<Beckmann, Lobes::kTransmission, JointMasking::kHeightCorrelated, true, false, kEvalTransmission>,
+      RoughDielectricKernel<Beckmann, Lobes::kReflection, JointMasking::kHeightCorrelated, true, false,
+                            kEvalReflection>,
+      RoughDielectricKernel<Beckmann, Lobes::kTransmission, JointMasking::kHeightCorrelated, true, false,
+                            kEvalTransmission>,
       RoughDielectricKernel<Beckmann, Lobes::kBoth, JointMasking::kSeparable, true, false, kEvalSeparable>,
       RoughDielectricKernel<Beckmann, Lobes::kBoth, JointMasking::kHeightCorrelated, false, true, kPdf>,
       RoughDielectricKernel<Beckmann, Lobes::kBoth, JointMasking::kHeightCorrelated, true, true, kEvalPdf>,

@@ -23,8 +23,10 @@ constexpr std::string_view kSample = "rough_dielectric_phong.sample";
 FamilyCode FamilyOnTarget() {
   return Family<
       RoughDielectricKernel<Phong, Lobes::kBoth, JointMasking::kHeightCorrelated, true, false, kEval>,
-      RoughDielectricKernel<Phong, Lobes::kReflection, JointMasking::kHeightCorrelated, true, false, kEvalReflection>,
-      RoughDielectricKernel<Phong, Lobes::kTransmission, JointMasking::kHeightCorrelated, true, false, kEvalTransmission>,
+      RoughDielectricKernel<Phong, Lobes::kReflection, JointMasking::kHeightCorrelated, true, false,
+                            kEvalReflection>,
+      RoughDielectricKernel<Phong, Lobes::kTransmission, JointMasking::kHeightCorrelated, true, false,
+                            kEvalTransmission>,
       RoughDielectricKernel<Phong, Lobes::kBoth, JointMasking::kSeparable, true, false, kEvalSeparable>,
       RoughDielectricKernel<Phong, Lobes::kBoth, JointMasking::kHeightCorrelated, false, true, kPdf>,
       RoughDielectricKernel<Phong, Lobes::kBoth, JointMasking::kHeightCorrelated, true, true, kEvalPdf>,

@@ -1,0 +1,31 @@
+// The report's plots, by gnuplot.
+#ifndef MICROLANE_BENCH_PLOTS_H_
+#define MICROLANE_BENCH_PLOTS_H_
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "report_data.h"
+
+namespace microlane {
+
+// Base names, without .svg or .png, within the report's folder.
+std::string KernelPlot(std::size_t kernel);
+std::string GlassPlot(const std::string& glass);
+inline constexpr const char* kSpeedPlot = "plots/speed";
+inline constexpr const char* kErrorPlot = "plots/error";
+inline constexpr const char* kFloorPlot = "plots/floor";
+
+// Whether there is a gnuplot to run.
+bool HasGnuplot();
+
+// Writes every plot as SVG and PNG, with its data and script beside it. `progress` is called before each with its
+// place and their number. Empty, or what went wrong.
+std::string WritePlots(const ReportData& data, const std::filesystem::path& folder,
+                       const std::function<void(std::size_t, std::size_t)>& progress);
+
+}  // namespace microlane
+
+#endif  // MICROLANE_BENCH_PLOTS_H_
