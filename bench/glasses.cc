@@ -14,9 +14,9 @@ constexpr double kDegree = 3.14159265358979323846 / 180;
 constexpr double kStep = 0.1, kLargest = 89.9;
 
 GlassCurve Measure(const Fit& fit, int incidence) {
-  const std::size_t kernel = KernelIndex(std::string_view(fit.distribution) == "GGX"
-                                             ? "rough_dielectric.eval_transmission_separable"
-                                             : "rough_dielectric_beckmann.eval_separable");
+  const std::size_t kernel =
+      KernelIndex(std::string_view(fit.distribution) == "GGX" ? "rough_dielectric.eval_transmission_separable"
+                                                              : "rough_dielectric_beckmann.eval_separable");
   GlassCurve curve{fit, incidence, {}, {}, {}};
   const int steps = static_cast<int>(std::lround(kLargest / kStep));
   std::vector<float> wox, woz;
@@ -31,7 +31,8 @@ GlassCurve Measure(const Fit& fit, int incidence) {
   const std::vector<float> wiz(n, static_cast<float>(std::cos(incidence * kDegree)));
   const std::vector<float> zero(n, 0);
   Call<float> call;
-  const float* const directions[] = {wix.data(), zero.data(), wiz.data(), wox.data(), zero.data(), woz.data()};
+  const float* const directions[] = {wix.data(), zero.data(), wiz.data(),
+                                     wox.data(), zero.data(), woz.data()};
   for (std::size_t k = 0; k < 6; ++k) call.in[k] = directions[k];
   const float* const parameters[] = {&fit.alpha, &fit.alpha, &kGlassEta};
   for (std::size_t k = 0; k < 3; ++k) {

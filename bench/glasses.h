@@ -21,8 +21,8 @@ inline constexpr Fit kFits[] = {
 inline constexpr float kGlassEta = 1.51f;
 inline constexpr int kIncidence[] = {0, 30, 60, 80};  // degrees
 
-// f_t |cos(theta_o)| over the transmitted angle, light coming through air at the angle of incidence, with the separable
-// Smith G of the paper (Walter 2007 Eqs. 21, 23).
+// f_t |cos(theta_o)| over the transmitted angle, light coming through air at the angle of incidence, with the
+// separable Smith G of the paper (Walter 2007 Eqs. 21, 23).
 struct GlassCurve {
   Fit fit;
   int incidence;

@@ -9,8 +9,8 @@
 
 namespace microlane {
 
-// One HTML page that needs no other file: the plots are read from `folder` and put inside. Plots that are missing are
-// left out.
+// One HTML page that needs no other file: the plots are read from `folder` and put inside. Plots that are
+// missing are left out.
 std::string MakePage(const ReportData& data, const std::filesystem::path& folder);
 
 }  // namespace microlane

@@ -21,8 +21,8 @@ inline constexpr const char* kFloorPlot = "plots/floor";
 // Whether there is a gnuplot to run.
 bool HasGnuplot();
 
-// Writes every plot as SVG and PNG, with its data and script beside it. `progress` is called before each with its
-// place and their number. Empty, or what went wrong.
+// Writes every plot as SVG and PNG, with its data and script beside it. `progress` is called before each with
+// its place and their number. Empty, or what went wrong.
 std::string WritePlots(const ReportData& data, const std::filesystem::path& folder,
                        const std::function<void(std::size_t, std::size_t)>& progress);
 

@@ -17,7 +17,8 @@ namespace {
 // A lobe chosen closer to the decision than this may be either.
 constexpr double kExcusedMargin = 1e-5;
 
-TextbookError Judge(std::size_t kernel, const std::vector<Point>& points, std::size_t begin, std::size_t end) {
+TextbookError Judge(std::size_t kernel, const std::vector<Point>& points, std::size_t begin,
+                    std::size_t end) {
   const Names inputs = Split(kKernels[kernel].inputs), outputs = Split(kKernels[kernel].outputs);
   const bool samples = outputs.name[outputs.count - 1] == "lobe";
   TextbookError error;
@@ -34,13 +35,15 @@ TextbookError Judge(std::size_t kernel, const std::vector<Point>& points, std::s
 
     oracle::Result truth = oracle::Evaluate(kernel, points[j].data());
     if (samples && std::isfinite(out[5]) && truth.margin < kExcusedMargin && truth.exact[5] != out[5]) {
-      truth = oracle::Evaluate(kernel, points[j].data(), oracle::Transport::kRadiance, static_cast<int>(out[5]));
+      truth =
+          oracle::Evaluate(kernel, points[j].data(), oracle::Transport::kRadiance, static_cast<int>(out[5]));
     }
     bool finite = true;
     double largest = 0;
     for (std::size_t k = 0; k < outputs.count; ++k) {
       finite = finite && std::isfinite(out[k]);
-      if (std::isfinite(out[k])) largest = std::max(largest, UlpError(out[k], truth.exact[k], truth.scale[k]));
+      if (std::isfinite(out[k]))
+        largest = std::max(largest, UlpError(out[k], truth.exact[k], truth.scale[k]));
     }
     ++error.points;
     error.nan_count += finite ? 0 : 1;

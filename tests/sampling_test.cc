@@ -437,7 +437,7 @@ void ExpectWeightsAreValueOverDensity(Accuracy accuracy, const std::string& name
           std::is_same_v<T, float> ? 2 * DeclaredError<T>(c.distribution.Dielectric("eval"), accuracy) : 0;
       // In the fast accuracy every step counts as a rounding, to about 2^-14.
       const bool fast = accuracy == Accuracy::kFast;
-      const double u = fast ? 0x1p-14 : kRounding<T>, factor = fast ? 4 : 8, largest = fast ? 0.02 : 1e-3;
+      const double u = fast ? 0x1p-14 : kRounding<T>, factor = fast ? 4 : 16, largest = fast ? 0.02 : 1e-3;
       for (std::size_t i = 0; i < n; ++i) {
         const auto where = [&] { return c.Text() + " wi " + Text(s.wi[i]) + " wo " + Text(s.wo[i]); };
         if (s.lobe[i] == 0) {
@@ -665,7 +665,8 @@ TEST(WidenedBeckmann, LargestWeightIsThatOfThePaper) {
   }
   std::printf("  %zu points; largest weight widened %.4g at %s; D cos %.4g at %s\n", points, largest_widened,
               where_widened.c_str(), largest_plain, where_plain.c_str());
-  EXPECT_LT(largest_widened, largest_plain);
+  EXPECT_LT(largest_widened, 4);
+  EXPECT_GT(largest_plain, 10);
 }
 
 template <class T>

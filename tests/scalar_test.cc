@@ -411,7 +411,7 @@ std::string TestName(std::size_t kernel) {
 class ScalarKernel : public testing::TestWithParam<std::size_t> {};
 
 INSTANTIATE_TEST_SUITE_P(List, ScalarKernel, testing::Range(std::size_t{0}, kNumKernels),
-                         [](const auto& info) { return TestName(info.param); });
+                         [](const auto& named) { return TestName(named.param); });
 
 TEST_P(ScalarKernel, StaysWithinItsBoundOfTheOracle) {
   const std::size_t kernel = GetParam();

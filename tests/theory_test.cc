@@ -96,12 +96,7 @@ TEST(Distribution, ProjectedAreaIsThatOfTheMacrosurface) {
     for (const Distribution& distribution : AllDistributions()) {
       const NormalNodes nodes = AllNormals(distribution.scale_x, distribution.scale_y);
       const DirectionColumns<T> m = Rounded<T>(nodes.m);
-      const Column<T> density = [&] {
-        if (distribution.family == "phong") {
-          return RunOne<T>("phong.D", m.size(), {accuracy}, m, distribution);
-        }
-        return RunOne<T>(distribution.Id("D"), m.size(), {accuracy}, m, distribution);
-      }();
+      const Column<T> density = RunOne<T>(distribution.Id("D"), m.size(), {accuracy}, m, distribution);
       num_nodes += m.size();
       double area = 0, projected = 0;
       Direction sum{0, 0, 0};

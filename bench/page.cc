@@ -1,0 +1,231 @@
+#include "page.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+#include "command.h"
+#include "microlane/kernel_list.h"
+#include "plots.h"
+
+namespace microlane {
+namespace {
+
+std::string Escaped(std::string_view text) {
+  std::string escaped;
+  for (const char c : text) {
+    if (c == '<') {
+      escaped += "&lt;";
+    } else if (c == '>') {
+      escaped += "&gt;";
+    } else if (c == '&') {
+      escaped += "&amp;";
+    } else if (c == '"') {
+      escaped += "&quot;";
+    } else {
+      escaped += c;
+    }
+  }
+  return escaped;
+}
+
+std::string Base64(const std::string& bytes) {
+  constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    unsigned value = 0;
+    for (std::size_t j = 0; j < 3; ++j) {
+      value = value << 8 | (i + j < bytes.size() ? static_cast<unsigned char>(bytes[i + j]) : 0u);
+    }
+    for (std::size_t j = 0; j < 4; ++j) {
+      text += i + j <= bytes.size() ? kDigits[value >> (18 - 6 * j) & 63] : '=';
+    }
+  }
+  return text;
+}
+
+std::string Image(const std::filesystem::path& folder, const std::string& base,
+                  const std::string& description) {
+  std::ifstream file(folder / (base + ".svg"), std::ios::binary);
+  if (!file) return "";
+  const std::string bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  return fmt::format("<img alt=\"{}\" src=\"data:image/svg+xml;base64,{}\">\n", Escaped(description),
+                     Base64(bytes));
+}
+
+constexpr const char* kStyle = R"(
+body { font: 15px/1.5 system-ui, sans-serif; color: #222; max-width: 1500px; margin: 2em auto; padding: 0 1.5em; }
+h1 { font-size: 1.7em; } h2 { margin-top: 2.2em; border-bottom: 1px solid #ccc; }
+table { border-collapse: collapse; font-size: 13px; font-variant-numeric: tabular-nums; }
+th, td { padding: 2px 8px; text-align: right; border-bottom: 1px solid #eee; white-space: nowrap; }
+th { position: sticky; top: 0; background: #f4f4f4; vertical-align: bottom; }
+td:first-child, th:first-child { text-align: left; font-family: ui-monospace, monospace; }
+tr:hover td { background: #f6faff; }
+.bad { color: #b3261e; font-weight: 600; } .good { color: #1b7f3b; font-weight: 600; }
+.left td, .left th { text-align: left; }
+img { max-width: 100%; height: auto; } .grid { display: grid; grid-template-columns: repeat(auto-fill, minmax(600px, 1fr)); gap: 8px; }
+p, li { max-width: 70em; } .wide { overflow-x: auto; }
+)";
+
+std::string Cell(const std::string& text, const char* kind = "") {
+  return *kind == '\0' ? fmt::format("<td>{}</td>", text)
+                       : fmt::format("<td class=\"{}\">{}</td>", kind, text);
+}
+
+std::string ErrorCell(const PathResult& path, bool has_bound) {
+  std::string text = Short(path.max_ulp);
+  if (path.nan_count > 0) text += fmt::format(" ({} NaN)", path.nan_count);
+  return Cell(text, has_bound && !(path.max_ulp <= path.bound) ? "bad" : "");
+}
+
+std::string MainTable(const ReportData& data) {
+  const bool counted = CanCountOperations();
+  std::string html =
+      "<div class=\"wide\"><table><thead><tr><th rowspan=2>kernel<th colspan=6>ns per lane<th "
+      "colspan=3>times textbook"
+      "<th colspan=3>time over floor<th colspan=2>per vector, standard<th>n 16 / 4096<th colspan=6>largest "
+      "error, ULP"
+      "</tr><tr>";
+  for (const char* name : kPathNames) html += fmt::format("<th>{}", name);
+  for (int group = 0; group < 2; ++group) html += "<th>high<th>standard<th>fast";
+  html += "<th>divisions<th>roots<th>standard";
+  for (const char* name : kPathNames) html += fmt::format("<th>{}", name);
+  html += "</tr></thead><tbody>\n";
+  for (const KernelResult& result : data.kernels) {
+    html += "<tr>" + Cell(std::string(kKernels[result.kernel].id));
+    for (const PathResult& path : result.path) html += Cell(Short(path.time.min));
+    for (const Path path : {Path::kHigh, Path::kStandard, Path::kFast})
+      html += Cell(Short(result.Speedup(path)));
+    for (const Path path : {Path::kHigh, Path::kStandard, Path::kFast}) {
+      html += counted ? Cell(Short(result.OverFloor(path)), result.OverFloor(path) > 1.3 ? "bad" : "")
+                      : Cell("-");
+    }
+    const PathResult& standard = result[Path::kStandard];
+    html += Cell(counted ? Short(standard.floor.per_vector.Count(Unit::kDivision)) : "-");
+    html += Cell(counted ? Short(standard.floor.per_vector.Count(Unit::kRoot)) : "-");
+    const double short_batch = standard.time16 / standard.time.min;
+    html += Cell(Short(short_batch), short_batch > 1.5 ? "bad" : "");
+    for (std::size_t p = 0; p < kPaths; ++p) html += ErrorCell(result.path[p], p < 3);
+    html += "</tr>\n";
+  }
+  return html + "</tbody></table></div>\n";
+}
+
+std::string GoalTable(const ReportData& data) {
+  std::string html = "<table class=\"left\"><tr><th>figure<th>goal<th>reached</tr>\n";
+  for (const Goal& goal : data.goals) {
+    html += fmt::format("<tr><td>{}<td>{}<td class=\"{}\">{}</tr>\n", Escaped(goal.what), Escaped(goal.goal),
+                        goal.met ? "good" : "bad", Escaped(goal.reached));
+  }
+  return html + "</table>\n";
+}
+
+std::string CeilingTable(const ReportData& data) {
+  std::string html = "<table><tr><th>vector";
+  for (const char* name : kUnitNames) html += fmt::format("<th>{}", Escaped(name));
+  html += "</tr>\n";
+  for (std::size_t w = 0; w < kWidths; ++w) {
+    for (std::size_t t = 0; t < 2; ++t) {
+      const double* ns = data.ceilings.ns[w][t];
+      if (ns[0] == 0) continue;
+      const char* type = t == 0 ? "float" : "double";
+      html += "<tr>" + Cell(w == 0 ? fmt::format("one {}", type)
+                                   : fmt::format("{} {}s", kWidthBytes[w] / (t == 0 ? 4 : 8), type));
+      for (std::size_t u = 0; u < kUnits; ++u) html += Cell(ns[u] > 0 ? fmt::format("{:.3f}", ns[u]) : "");
+      html += "</tr>\n";
+    }
+  }
+  return html + "</table>\n";
+}
+
+std::string TargetTable(const ReportData& data) {
+  if (data.targets.empty()) return "";
+  std::vector<std::string> targets;
+  for (const TargetTime& time : data.targets) {
+    if (targets.empty() || targets.back() != time.target) {
+      if (std::find(targets.begin(), targets.end(), time.target) == targets.end())
+        targets.push_back(time.target);
+    }
+  }
+  std::string html = "<div class=\"wide\"><table><thead><tr><th rowspan=2>kernel";
+  for (const std::string& target : targets) html += fmt::format("<th colspan=3>{}", target);
+  html += "</tr><tr>";
+  for (std::size_t i = 0; i < targets.size(); ++i) html += "<th>high<th>standard<th>fast";
+  html += "</tr></thead><tbody>\n";
+  for (const KernelResult& result : data.kernels) {
+    html += "<tr>" + Cell(std::string(kKernels[result.kernel].id));
+    for (const std::string& target : targets) {
+      for (const Path path : {Path::kHigh, Path::kStandard, Path::kFast}) {
+        for (const TargetTime& time : data.targets) {
+          if (time.target == target && time.kernel == result.kernel && time.path == path)
+            html += Cell(Short(time.ns));
+        }
+      }
+    }
+    html += "</tr>\n";
+  }
+  return html + "</tbody></table></div>\n";
+}
+
+}  // namespace
+
+std::string MakePage(const ReportData& data, const std::filesystem::path& folder) {
+  std::string html = fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Microlane: error against run "
+      "time</title>"
+      "<style>{}</style></head><body>\n<h1>Microlane: error against run time</h1>\n"
+      "<p>{} kernels on one core of {}, target {}, compiled by {}, measured in {:.0f} s.</p>\n",
+      kStyle, data.kernels.size(), Escaped(data.machine), data.target, Escaped(data.compiler), data.seconds);
+  html +=
+      "<ul>\n<li><b>high</b>, <b>standard</b>, <b>fast</b>: the three accuracies of the library; <b>scalar "
+      "float</b>, "
+      "<b>scalar double</b>: its readable references; <b>textbook</b>: the code renderers carry today "
+      "(<code>bench/textbook.cc</code>).</li>\n"
+      "<li>Times are the least over repetitions, in nanoseconds per lane, of batches of 4096 lanes with one "
+      "roughness and "
+      "index per lane; directions are on either side of the surface and inside the lobe.</li>\n"
+      "<li>Errors are in units in the last place of float against the high-precision oracle, the largest "
+      "over random "
+      "points, a grid and the extreme cases (alpha 1e-5 to 1e2, cosines 1e-7 to 1, eta 1/4 to 4). 4096 ULP "
+      "are "
+      "2<sup>-11</sup>. Textbook code and scalar code declare no bound.</li>\n"
+      "<li>The floor is the least time in which this machine can do the operations that the kernel executes: "
+      "its divisions "
+      "and roots one after the other, or its vector instructions on the ports they share, or its arrays "
+      "loaded and stored, "
+      "whichever takes longest. Operations are counted by stepping through the code. It says how well they "
+      "overlap, not "
+      "whether fewer would do.</li>\n</ul>\n";
+  html += "<h2>Figures to reach</h2>\n" + GoalTable(data);
+  html += "<h2>All kernels</h2>\n" + MainTable(data);
+  html += Image(folder, kSpeedPlot, "Speed of every kernel over the textbook code");
+  html += Image(folder, kErrorPlot, "Largest error of every kernel");
+  html += Image(folder, kFloorPlot, "Time of every kernel over its floor");
+  html +=
+      "<h2>The four glasses</h2>\n<p>Walter 2007 Fig. 12, both fits: the transmission f<sub>t</sub> |cos| "
+      "times the fitted "
+      "scale, in the plane of incidence, light coming through air at 0, 30, 60 and 80 degrees, with the "
+      "paper's separable "
+      "Smith G. Lines: high; circles: fast. Below each, the relative difference of the two, the largest of "
+      "each degree.</p>\n";
+  for (std::size_t f = 0; f < std::size(kFits); f += 2) {
+    html +=
+        Image(folder, GlassPlot(kFits[f].glass), fmt::format("Transmission of the {} glass", kFits[f].glass));
+  }
+  html += "<h2>Error against run time, kernel by kernel</h2>\n<div class=\"grid\">\n";
+  for (const KernelResult& result : data.kernels) {
+    html += Image(folder, KernelPlot(result.kernel),
+                  fmt::format("Error against run time of {}", kKernels[result.kernel].id));
+  }
+  html += "</div>\n<h2>The machine</h2>\n<p>Nanoseconds per instruction when nothing else runs, target " +
+          data.target + ".</p>\n" + CeilingTable(data);
+  if (!data.targets.empty()) {
+    html += "<h2>The other targets</h2>\n<p>Nanoseconds per lane, 4096 lanes, per-lane parameters.</p>\n" +
+            TargetTable(data);
+  }
+  return html + "</body></html>\n";
+}
+
+}  // namespace microlane

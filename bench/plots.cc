@@ -1,0 +1,293 @@
+#include "plots.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <utility>
+#include <vector>
+
+#include "microlane/kernel_list.h"
+
+namespace microlane {
+namespace {
+
+constexpr const char* kPathColours[kPaths] = {"#1f6fb2", "#2e9e4f", "#e08214",
+                                              "#9a9a9a", "#555555", "#c0392b"};
+constexpr int kPathMarks[kPaths] = {7, 5, 9, 6, 4, 2};  // gnuplot's point types
+constexpr const char* kIncidenceColours[] = {"#1f6fb2", "#2e9e4f", "#e08214", "#c0392b"};
+constexpr double kErrorLow = 0.1, kErrorHigh = 1e9;  // errors beyond are drawn on the edge
+
+constexpr Path kLanePaths[] = {Path::kHigh, Path::kStandard, Path::kFast};
+
+double Clamped(double ulp) { return std::isnan(ulp) ? kErrorHigh : std::clamp(ulp, kErrorLow, kErrorHigh); }
+
+std::size_t Index(Path path) { return static_cast<std::size_t>(path); }
+
+std::string ErrorAxis(char axis) {
+  return fmt::format(
+      "set logscale {0}\nset {0}range [{1}:{2}]\nset format {0} '10^{{%T}}'\n"
+      "set {0}tics ('0.1' 0.1, '1' 1, '10' 10, '100' 100, '10^3' 1e3, '10^4' 1e4, '10^5' 1e5, '10^6' 1e6, "
+      "'10^7' 1e7, "
+      "'10^8' 1e8, '≥10^9' 1e9)\n",
+      axis, kErrorLow * 0.6, kErrorHigh * 2);
+}
+
+// Tics at 1, 2, 5 times powers of ten, which keep a log axis of one or two decades readable.
+std::string DecadeTics(char axis, double low, double high) {
+  std::string tics;
+  for (double decade = std::pow(10, std::floor(std::log10(low))); decade <= high; decade *= 10) {
+    for (const double step : {1.0, 2.0, 5.0}) {
+      const double at = step * decade;
+      if (at >= low && at <= high) tics += fmt::format("{}'{:g}' {:g}", tics.empty() ? "" : ", ", at, at);
+    }
+  }
+  return fmt::format("set {}tics ({})\n", axis, tics);
+}
+
+struct Range {
+  double low = INFINITY, high = 0;
+  void Add(double x) {
+    if (!(x > 0) || std::isinf(x)) return;
+    low = std::min(low, x);
+    high = std::max(high, x);
+  }
+};
+
+std::string LogAxis(char axis, Range range, double margin) {
+  if (range.high == 0) range = {1, 1};
+  range.low /= margin;
+  range.high *= margin;
+  return fmt::format("set logscale {0}\nset {0}range [{1:g}:{2:g}]\n", axis, range.low, range.high) +
+         DecadeTics(axis, range.low, range.high);
+}
+
+std::string KernelScript(const KernelResult& result) {
+  std::string script = fmt::format(
+      "set title '{}' noenhanced\nset xlabel 'nanoseconds per lane'\nset ylabel 'largest error, ULP'\n"
+      "set key outside right top Left reverse\nset grid lc rgb '#dddddd'\n",
+      kKernels[result.kernel].id);
+  Range range;
+  for (const PathResult& path : result.path) range.Add(path.time.min);
+  script += LogAxis('x', range, 1.6) + ErrorAxis('y');
+  for (const Path path : kLanePaths) {
+    script +=
+        fmt::format("set arrow from graph 0, first {0:g} to graph 1, first {0:g} nohead dt 3 lc rgb '{1}'\n",
+                    result[path].bound, kPathColours[Index(path)]);
+  }
+  std::string plot;
+  for (std::size_t p = 0; p < kPaths; ++p) {
+    const PathResult& path = result.path[p];
+    script += fmt::format("$p{} << EOD\n{:g} {:g}\nEOD\n", p, path.time.min, Clamped(path.max_ulp));
+    plot += fmt::format("{}$p{} using 1:2 with points pt {} ps 1.6 lw 2 lc rgb '{}' title '{}'",
+                        p == 0 ? "plot " : ", ", p, kPathMarks[p], kPathColours[p], kPathNames[p]);
+  }
+  plot += ", NaN with lines dt 3 lc rgb '#555555' title 'declared bounds'";
+  return script + plot + "\n";
+}
+
+// One row of points for each kernel.
+template <class Value>
+std::string Rows(const ReportData& data, const std::vector<Path>& paths, const Value& value) {
+  std::string tics;
+  for (std::size_t i = 0; i < data.kernels.size(); ++i) {
+    tics += fmt::format("{}'{}' {}", i == 0 ? "" : ", ", kKernels[data.kernels[i].kernel].id, i);
+  }
+  std::string script = fmt::format(
+      "set ytics ({}) noenhanced font ',10'\nset yrange [{}:-1]\nset grid lc rgb '#e4e4e4'\n"
+      "set key outside top center horizontal Left reverse\n",
+      tics, data.kernels.size());
+  std::string plot;
+  for (const Path path : paths) {
+    const std::size_t p = Index(path);
+    script += fmt::format("$p{} << EOD\n", p);
+    for (std::size_t i = 0; i < data.kernels.size(); ++i) {
+      script += fmt::format("{:g} {}\n", value(data.kernels[i], path), i);
+    }
+    script += "EOD\n";
+    plot += fmt::format("{}$p{} using 1:2 with points pt {} ps 1.1 lw 1.5 lc rgb '{}' title '{}'",
+                        plot.empty() ? "plot " : ", ", p, kPathMarks[p], kPathColours[p], kPathNames[p]);
+  }
+  return script + plot;
+}
+
+std::string VerticalLine(double x, const char* colour) {
+  return fmt::format("set arrow from first {0:g}, graph 0 to first {0:g}, graph 1 nohead dt 2 lc rgb '{1}'\n",
+                     x, colour);
+}
+
+std::string SpeedScript(const ReportData& data) {
+  Range range;
+  for (const KernelResult& result : data.kernels) {
+    for (std::size_t p = 0; p + 1 < kPaths; ++p) range.Add(result.Speedup(static_cast<Path>(p)));
+  }
+  return fmt::format("set title 'Times as fast as the textbook code, {}, 4096 lanes, per-lane parameters'\n",
+                     data.target) +
+         "set xlabel 'textbook ns / ns'\n" + LogAxis('x', range, 1.3) + VerticalLine(1, "#c0392b") +
+         Rows(data, {Path::kHigh, Path::kStandard, Path::kFast, Path::kScalarFloat, Path::kScalarDouble},
+              [](const KernelResult& result, Path path) { return result.Speedup(path); }) +
+         "\n";
+}
+
+std::string ErrorScript(const ReportData& data) {
+  return fmt::format("set title 'Largest error against the oracle, {}'\nset xlabel 'ULP'\n", data.target) +
+         ErrorAxis('x') + VerticalLine(1, kPathColours[0]) + VerticalLine(4, kPathColours[1]) +
+         VerticalLine(16, kPathColours[1]) + VerticalLine(4096, kPathColours[2]) +
+         Rows(data,
+              {Path::kHigh, Path::kStandard, Path::kFast, Path::kScalarFloat, Path::kScalarDouble,
+               Path::kTextbook},
+              [](const KernelResult& result, Path path) { return Clamped(result[path].max_ulp); }) +
+         ", NaN with lines dt 2 lc rgb '#555555' title 'bounds: 1, 4 and 16, 4096'\n";
+}
+
+std::string FloorScript(const ReportData& data) {
+  Range range;
+  for (const KernelResult& result : data.kernels) {
+    for (const Path path : kLanePaths) range.Add(result.OverFloor(path));
+  }
+  return fmt::format("set title 'Time over the floor of the kernel''s own operations, {}'\n", data.target) +
+         "set xlabel 'ns / floor'\n" + LogAxis('x', range, 1.1) + VerticalLine(1.3, "#c0392b") +
+         Rows(data, {Path::kHigh, Path::kStandard, Path::kFast},
+              [](const KernelResult& result, Path path) { return result.OverFloor(path); }) +
+         ", NaN with lines dt 2 lc rgb '#c0392b' title 'goal: 1.3'\n";
+}
+
+std::string GlassScript(const ReportData& data, const std::string& glass) {
+  const bool narrow = glass == "antiglare";
+  const double low = narrow ? -10 : -60, high = narrow ? 60 : 90;
+  std::string script, curves, differences;
+  double alphas[2] = {}, scales[2] = {};
+  int count = 0;
+  for (const GlassCurve& curve : data.glasses) {
+    if (glass != curve.fit.glass) continue;
+    const bool ggx = std::string(curve.fit.distribution) == "GGX";
+    alphas[ggx] = static_cast<double>(curve.fit.alpha);
+    scales[ggx] = static_cast<double>(curve.fit.scale);
+    const std::size_t incidence = static_cast<std::size_t>(
+        std::find(std::begin(kIncidence), std::end(kIncidence), curve.incidence) - std::begin(kIncidence));
+    const char* colour = kIncidenceColours[incidence];
+    script += fmt::format("$c{} << EOD\n", count);
+    const std::size_t step = narrow ? 1 : 2;
+    for (std::size_t i = 0; i < curve.angle.size(); i += step) {
+      if (curve.angle[i] < low || curve.angle[i] > high) continue;
+      script += fmt::format("{:.1f} {:.6g} {:.6g}\n", curve.angle[i], curve.fit.scale * curve.high[i],
+                            curve.fit.scale * curve.fast[i]);
+    }
+    script += fmt::format("EOD\n$d{} << EOD\n", count);
+    // The largest of each degree.
+    for (std::size_t i = 0; i + 10 <= curve.angle.size(); i += 10) {
+      double largest = 0;
+      for (std::size_t j = i; j < i + 10; ++j) {
+        const double exact = static_cast<double>(curve.high[j]);
+        if (exact > 1e-37)
+          largest = std::max(largest, std::abs(static_cast<double>(curve.fast[j]) / exact - 1));
+      }
+      if (largest > 0 && curve.angle[i] >= low && curve.angle[i] <= high) {
+        script += fmt::format("{:.1f} {:.3g}\n", curve.angle[i] + 0.45, largest);
+      }
+    }
+    script += "EOD\n";
+    const char* dash = ggx ? "1" : "(9,5)";
+    curves += fmt::format("{}$c{} using 1:2 with lines lw 2 dt {} lc rgb '{}' title '{} {}°'",
+                          count == 0 ? "plot " : ", ", count, dash, colour, curve.fit.distribution,
+                          curve.incidence);
+    curves += fmt::format(", $c{} using 1:3 every {} with points pt 6 ps 0.5 lc rgb '{}' notitle", count,
+                          narrow ? 12 : 25, colour);
+    differences += fmt::format("{}$d{} using 1:2 with lines lw 1.3 dt {} lc rgb '{}' notitle",
+                               count == 0 ? "plot " : ", ", count, dash, colour);
+    ++count;
+  }
+  curves += ", NaN with points pt 6 ps 0.5 lc rgb '#555555' title 'fast'";
+  curves += ", NaN with lines dt 3 lc rgb '#555555' title 'Snell'";
+  differences += ", 2**-11 with lines dt 2 lc rgb '#555555' title '2^{-11}'";
+  std::string snell;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const double degree = 3.14159265358979323846 / 180;
+    const double angle =
+        std::asin(std::sin(kIncidence[k] * degree) / static_cast<double>(kGlassEta)) / degree;
+    snell += fmt::format(
+        "set arrow from first {0:.3f}, graph 0 to first {0:.3f}, graph 1 nohead dt 3 lc rgb '{1}'\n", angle,
+        kIncidenceColours[k]);
+  }
+  return script +
+         fmt::format(
+             "set multiplot\nset lmargin at screen 0.1\nset rmargin at screen 0.81\nset xrange [{}:{}]\n"
+             "set grid lc rgb '#e4e4e4'\nset key at screen 0.99, screen 0.93 right top Left reverse\n"
+             "set tmargin at screen 0.93\nset bmargin at screen 0.44\n"
+             "set title 'Glass of Walter 2007 Fig. 12: {}, eta 1.51. Beckmann: alpha {}, scale {}. GGX: "
+             "alpha {}, scale {}'"
+             "\nset ylabel 'scale f_t |cos {{/Symbol q}}_o|, 1/sr'\nset format x ''\nset yrange [0:*]\n{}{}\n"
+             "unset arrow\nunset title\nset tmargin at screen 0.41\nset bmargin at screen 0.09\nset format x "
+             "'%g'\n"
+             "set xlabel 'transmitted angle, degrees'\nset ylabel '|fast / high - 1|'\nset logscale y\n"
+             "set format y '10^{{%T}}'\nset yrange [1e-8:2e-3]\nset key at screen 0.99, screen 0.41 right "
+             "top Left reverse\n"
+             "{}\nunset multiplot\n",
+             low, high, glass, alphas[0], scales[0], alphas[1], scales[1], snell, curves, differences);
+}
+
+// Runs `script` once for each of the two formats.
+std::string Draw(const std::filesystem::path& folder, const std::string& base, int width, int height,
+                 const std::string& script) {
+  const std::string path = (folder / base).string();
+  std::ofstream file(path + ".gp");
+  file << "# Drawn by `microlane report`; run `gnuplot` on it from the folder above.\nset encoding utf8\n"
+       << "set terminal push\n"
+       << fmt::format("set terminal svg size {},{} dynamic font 'sans-serif,13' background '#ffffff'\n",
+                      width, height)
+       << fmt::format("set output '{}.svg'\n", base) << script
+       << fmt::format("reset\nset encoding utf8\nset terminal pngcairo size {},{} font 'sans-serif,11'\n",
+                      width, height)
+       << fmt::format("set output '{}.png'\n", base) << script << "set output\n";
+  file.close();
+  if (!file) return fmt::format("cannot write {}.gp", path);
+  const std::string command = fmt::format("cd '{}' && gnuplot '{}.gp' 2>&1", folder.string(), base);
+  std::FILE* const pipe = popen(command.c_str(), "r");
+  if (pipe == nullptr) return "cannot run gnuplot";
+  std::string output;
+  char text[256];
+  while (std::fgets(text, sizeof text, pipe) != nullptr) output += text;
+  if (pclose(pipe) != 0) return fmt::format("gnuplot {}.gp: {}", path, output);
+  return "";
+}
+
+}  // namespace
+
+std::string KernelPlot(std::size_t kernel) {
+  std::string name(kKernels[kernel].id);
+  std::replace(name.begin(), name.end(), '.', '_');
+  return "plots/kernel_" + name;
+}
+
+std::string GlassPlot(const std::string& glass) { return "plots/glass_" + glass; }
+
+bool HasGnuplot() { return std::system("gnuplot --version > /dev/null 2>&1") == 0; }
+
+std::string WritePlots(const ReportData& data, const std::filesystem::path& folder,
+                       const std::function<void(std::size_t, std::size_t)>& progress) {
+  const int rows = 130 + 17 * static_cast<int>(data.kernels.size());
+  std::vector<std::pair<std::string, std::string>> plots;  // base name and script
+  plots.emplace_back(kSpeedPlot, SpeedScript(data));
+  plots.emplace_back(kErrorPlot, ErrorScript(data));
+  plots.emplace_back(kFloorPlot, FloorScript(data));
+  const std::size_t overviews = plots.size();
+  for (std::size_t f = 0; f < std::size(kFits); f += 2) {
+    plots.emplace_back(GlassPlot(kFits[f].glass), GlassScript(data, kFits[f].glass));
+  }
+  const std::size_t wide = plots.size();
+  for (const KernelResult& result : data.kernels) {
+    plots.emplace_back(KernelPlot(result.kernel), KernelScript(result));
+  }
+  for (std::size_t i = 0; i < plots.size(); ++i) {
+    progress(i, plots.size());
+    const int width = i < wide ? 1000 : 620, height = i < overviews ? rows : i < wide ? 760 : 340;
+    const std::string error = Draw(folder, plots[i].first, width, height, plots[i].second);
+    if (!error.empty()) return error;
+  }
+  return "";
+}
+
+}  // namespace microlane
