@@ -56,6 +56,7 @@ std::string Short(double value) {
   if (!std::isfinite(value)) return fmt::format("{}", value);
   const double magnitude = std::abs(value);
   if (magnitude >= 1e5) return fmt::format("{:.1e}", value);
+  if (magnitude > 0 && magnitude < 1e-3) return fmt::format("{:.0e}", value);
   const int decimals = magnitude >= 100 || magnitude == 0 ? 0 : magnitude >= 10 ? 1 : magnitude >= 1 ? 2 : 3;
   return fmt::format("{:.{}f}", value, decimals);
 }

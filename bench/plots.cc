@@ -36,11 +36,12 @@ std::string ErrorAxis(char axis) {
       axis, kErrorLow * 0.6, kErrorHigh * 2);
 }
 
-// Tics at 1, 2, 5 times powers of ten, which keep a log axis of one or two decades readable.
+// Tics at powers of ten, and at 2 and 5 times these where there is room.
 std::string DecadeTics(char axis, double low, double high) {
   std::string tics;
   for (double decade = std::pow(10, std::floor(std::log10(low))); decade <= high; decade *= 10) {
     for (const double step : {1.0, 2.0, 5.0}) {
+      if (step > 1 && high > 3000 * low) continue;
       const double at = step * decade;
       if (at >= low && at <= high) tics += fmt::format("{}'{:g}' {:g}", tics.empty() ? "" : ", ", at, at);
     }
@@ -68,7 +69,7 @@ std::string LogAxis(char axis, Range range, double margin) {
 std::string KernelScript(const KernelResult& result) {
   std::string script = fmt::format(
       "set title '{}' noenhanced\nset xlabel 'nanoseconds per lane'\nset ylabel 'largest error, ULP'\n"
-      "set key outside right top Left reverse\nset grid lc rgb '#dddddd'\n",
+      "set key outside right top Left reverse\nset grid xtics ytics lt 1 lw 0.5 lc rgb '#dddddd'\n",
       kKernels[result.kernel].id);
   Range range;
   for (const PathResult& path : result.path) range.Add(path.time.min);
@@ -97,8 +98,9 @@ std::string Rows(const ReportData& data, const std::vector<Path>& paths, const V
     tics += fmt::format("{}'{}' {}", i == 0 ? "" : ", ", kKernels[data.kernels[i].kernel].id, i);
   }
   std::string script = fmt::format(
-      "set ytics ({}) noenhanced font ',10'\nset yrange [{}:-1]\nset grid lc rgb '#e4e4e4'\n"
-      "set key outside top center horizontal Left reverse\n",
+      "set ytics ({}) noenhanced font ',10'\nset yrange [{}:-1]\nset grid xtics ytics lt 1 lw 0.5 lc rgb "
+      "'#dddddd'\n"
+      "set key outside right top Left reverse\n",
       tics, data.kernels.size());
   std::string plot;
   for (const Path path : paths) {
@@ -159,13 +161,13 @@ std::string GlassScript(const ReportData& data, const std::string& glass) {
   const bool narrow = glass == "antiglare";
   const double low = narrow ? -10 : -60, high = narrow ? 60 : 90;
   std::string script, curves, differences;
-  double alphas[2] = {}, scales[2] = {};
+  float alphas[2] = {}, scales[2] = {};
   int count = 0;
   for (const GlassCurve& curve : data.glasses) {
     if (glass != curve.fit.glass) continue;
     const bool ggx = std::string(curve.fit.distribution) == "GGX";
-    alphas[ggx] = static_cast<double>(curve.fit.alpha);
-    scales[ggx] = static_cast<double>(curve.fit.scale);
+    alphas[ggx] = curve.fit.alpha;
+    scales[ggx] = curve.fit.scale;
     const std::size_t incidence = static_cast<std::size_t>(
         std::find(std::begin(kIncidence), std::end(kIncidence), curve.incidence) - std::begin(kIncidence));
     const char* colour = kIncidenceColours[incidence];
@@ -215,15 +217,16 @@ std::string GlassScript(const ReportData& data, const std::string& glass) {
   return script +
          fmt::format(
              "set multiplot\nset lmargin at screen 0.1\nset rmargin at screen 0.81\nset xrange [{}:{}]\n"
-             "set grid lc rgb '#e4e4e4'\nset key at screen 0.99, screen 0.93 right top Left reverse\n"
+             "set grid xtics ytics lt 1 lw 0.5 lc rgb '#dddddd'\nset key at screen 0.99, screen 0.93 right "
+             "top Left reverse\n"
              "set tmargin at screen 0.93\nset bmargin at screen 0.44\n"
-             "set title 'Glass of Walter 2007 Fig. 12: {}, eta 1.51. Beckmann: alpha {}, scale {}. GGX: "
-             "alpha {}, scale {}'"
-             "\nset ylabel 'scale f_t |cos {{/Symbol q}}_o|, 1/sr'\nset format x ''\nset yrange [0:*]\n{}{}\n"
+             "set title '{} glass, Walter 2007 Fig. 12. Beckmann: alpha {}, scale {}. GGX: alpha {}, scale "
+             "{}'\n"
+             "set ylabel 'scale f_t |cos {{/Symbol q}}_o|, 1/sr'\nset format x ''\nset yrange [0:*]\n{}{}\n"
              "unset arrow\nunset title\nset tmargin at screen 0.41\nset bmargin at screen 0.09\nset format x "
              "'%g'\n"
              "set xlabel 'transmitted angle, degrees'\nset ylabel '|fast / high - 1|'\nset logscale y\n"
-             "set format y '10^{{%T}}'\nset yrange [1e-8:2e-3]\nset key at screen 0.99, screen 0.41 right "
+             "set format y '10^{{%T}}'\nset yrange [1e-7:2e-3]\nset key at screen 0.99, screen 0.41 right "
              "top Left reverse\n"
              "{}\nunset multiplot\n",
              low, high, glass, alphas[0], scales[0], alphas[1], scales[1], snell, curves, differences);

@@ -28,6 +28,7 @@ class Lanes {
     isotropic_ = Contains(inputs, "exponent") || Contains(id, "isotropic");
     reflects_ = !Contains(id, "transmission") && !Contains(id, "refract");
     transmits_ = !Contains(id, "reflect");
+    if (isotropic_) alpha_y_ = alpha_x_;
   }
 
   // Roughness and index for the lanes that follow.
@@ -105,7 +106,7 @@ class Lanes {
   bool beckmann_, isotropic_, reflects_, transmits_;
   std::mt19937_64 random_{20070625};
   std::uniform_real_distribution<double> uniform_{0, 1};
-  double eta_ = 1.5, alpha_x_ = 0.5, alpha_y_ = 0.5, u1_ = 0, u2_ = 0, u3_ = 0, x_ = 0, a_ = 0;
+  double eta_ = 1.5, alpha_x_ = 0.3, alpha_y_ = 0.15, u1_ = 0, u2_ = 0, u3_ = 0, x_ = 0, a_ = 0;
   Vec wi_{}, wo_{}, m_{}, facing_{};
   bool live_ = false;
 };
@@ -132,9 +133,8 @@ Workload::Workload(std::size_t kernel, std::size_t n, Parameters parameters) : n
     }
   }
   Lanes lanes(kernel);
-  lanes.NextMaterial();
   for (std::size_t i = 0; i < n; ++i) {
-    if (!uniform && i > 0) lanes.NextMaterial();
+    if (!uniform) lanes.NextMaterial();
     lanes.Next();
     for (std::size_t k = 0; k < inputs.count; ++k) {
       memory_.get()[k * stride + i] = static_cast<float>(lanes.Value(inputs.name[k]));

@@ -67,7 +67,7 @@ struct Tally {
 
 struct Tallies {
   Tally output[kMaxOutputs];
-  std::uint64_t points = 0, searched = 0, judged = 0, nans = 0, infinities = 0, excused = 0;
+  std::uint64_t points = 0, searched = 0, judged = 0, nans = 0, infinities = 0, excused = 0, undetermined = 0;
 
   void Add(const Tallies& other) {
     for (std::size_t i = 0; i < kMaxOutputs; ++i) {
@@ -84,6 +84,7 @@ struct Tallies {
     nans += other.nans;
     infinities += other.infinities;
     excused += other.excused;
+    undetermined += other.undetermined;
   }
 };
 
@@ -137,9 +138,11 @@ class Judge {
         names_(Split(kKernels[kernel].inputs)),
         outputs_(Split(kKernels[kernel].outputs)),
         margin_(ExcusedMargin(options)),
+        bound_(DeclaredBound(kernel, options)),
         samples_(outputs_.name[outputs_.count - 1] == "lobe") {
-    for (std::size_t i = 0; i < outputs_.count; ++i)
+    for (std::size_t i = 0; i < outputs_.count; ++i) {
       metric_[i] = MetricOf(kKernels[kernel], outputs_.name[i]);
+    }
   }
 
   std::size_t num_outputs() const { return outputs_.count; }
@@ -221,10 +224,18 @@ class Judge {
       const double scale = metric_[i] == Metric::kDirection     ? 1
                            : metric_[i] == Metric::kConditioned ? exact * kappa
                                                                 : exact;
+      if (metric_[i] == Metric::kConditioned && kappa > 0.5 * LargestKappa<float>()) return false;
       error[i] = std::abs(static_cast<double>(got[i]) - exact) / FloatUlp(scale);
       correct[i] = got[i] == static_cast<float>(exact);
     }
     return true;
+  }
+
+  // Where a value within its bound may be off by an eighth or more, to first order, no digit is determined.
+  template <class T>
+  double LargestKappa() const {
+    const double bound = std::isfinite(bound_) ? bound_ : 16;
+    return 0.25 / (std::numeric_limits<T>::epsilon() * std::max(bound, 1.0));
   }
 
   // Metric::kConditioned's, from a sample's wi, wo and eta.
@@ -235,7 +246,7 @@ class Judge {
     if (!(h2 > 1e-12)) return 1;
     const double c = std::abs(in[0] * hx + in[1] * hy + in[2] * hz) / std::sqrt(h2);
     const double g2 = (eta - 1) * (eta + 1) + c * c;
-    return (1 + 1 / c) * (1 + c * c / std::abs(g2)) + 1 / std::abs(out[2]);
+    return (1 + 1 / c) * (1 + c * c / std::abs(g2)) * (1 + 1 / std::abs(out[2]));
   }
 
   template <class T>
@@ -251,8 +262,14 @@ class Judge {
       if (got[5] == 0 || truth.exact[5] == 0) return;  // there is nothing to compare with
       truth = oracle::Evaluate(kernel_, in.data(), Oracle(transport), static_cast<int>(got[5]));
     }
+    const double limit = LargestKappa<T>();
     for (std::size_t i = 0; i < outputs_.count; ++i) {
       error[i] = UlpError(got[i], truth.exact[i], truth.scale[i]);
+      if (metric_[i] == Metric::kConditioned && std::isfinite(got[i]) &&
+          truth.scale[i] > limit * truth.exact[i]) {
+        ++tallies.undetermined;
+        error[i] = 0;
+      }
       correct[i] = CorrectlyRounded(got[i], truth.exact[i]);
       WorstCase& worst = tallies.output[i].worst;
       if (error[i] > worst.ulp) {
@@ -264,7 +281,7 @@ class Judge {
   const std::size_t kernel_;
   const AccuracyOptions& options_;
   const Names names_, outputs_;
-  const double margin_;
+  const double margin_, bound_;
   const bool samples_;
   Metric metric_[kMaxOutputs] = {};
 };
@@ -362,8 +379,9 @@ void Search(std::size_t kernel, const AccuracyOptions& options, const Judge& jud
         Point children[kChildren];
         for (std::uint64_t round = 0; round < rounds; ++round) {
           Random random(options.seed ^ 0x5EA4C4, round * climbers.size() + index);
-          for (Point& child : children)
+          for (Point& child : children) {
             child = Perturbed(kernel, climber.candidate.in, random, options.values);
+          }
           judge.Run(children, kChildren, climber.candidate.transport, 1, tallies, errors);
           for (std::size_t j = 0; j < kChildren; ++j) {
             if (errors[j][climber.output] > climber.candidate.ulp) {
@@ -384,6 +402,7 @@ AccuracyReport MakeReport(std::size_t kernel, const AccuracyOptions& options, co
   report.nan_count = total.nans;
   report.inf_count = total.infinities;
   report.lobes_excused = total.excused;
+  report.undetermined = total.undetermined;
   const double points = static_cast<double>(std::max<std::uint64_t>(total.points - total.searched, 1));
   for (std::size_t i = 0; i < outputs.count; ++i) {
     const Tally& tally = total.output[i];

@@ -57,8 +57,11 @@ struct AccuracyReport {
   std::uint64_t nan_count = 0;   // points with a NaN or an infinity in an output
   std::uint64_t inf_count = 0;
   std::uint64_t lobes_excused = 0;  // samples that took another lobe than the oracle where rounding decides
-  double bound = 0;                 // declared; infinite for the scalar code
-  bool ok = false;                  // max_ulp <= bound, and no NaN or infinity
+  // Weights and densities of samples that an input rounding moves by so much that no digit is determined (see
+  // Metric::kConditioned); only that they are finite is asked of them.
+  std::uint64_t undetermined = 0;
+  double bound = 0;  // declared; infinite for the scalar code
+  bool ok = false;   // max_ulp <= bound, and no NaN or infinity
 };
 
 // The bound that the kernel list declares.

@@ -571,7 +571,7 @@ TEST(OracleSampling, ScaleCarriesTheConditioning) {
   ASSERT_EQ(r.exact[5], kTransmission);
   const Vec wo{r.exact[0], r.exact[1], r.exact[2]};
   const Real c = abs(Dot(wi, Normalized(RefractionHalfVector(wi, wo, 1.5))));
-  const Real kappa = (1 + 1 / c) * (1 + c * c / FresnelG2(c, 1.5)) + 1 / abs(wo.z);
+  const Real kappa = (1 + 1 / c) * (1 + c * c / FresnelG2(c, 1.5)) * (1 + 1 / abs(wo.z));
   for (int i = 0; i < 3; ++i) ExpectRelative(r.scale[i], 1 + c / sqrt(FresnelG2(c, 1.5)), 1e-90);
   ExpectRelative(r.scale[3], r.exact[3] * kappa, 1e-90);
   ExpectRelative(r.scale[4], r.exact[4] * kappa, 1e-90);

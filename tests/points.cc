@@ -306,9 +306,10 @@ class SceneMaker {
   double Exponential() {
     const double u = random_.Uniform();
     if (u < 0.2) return random_.Sign() * random_.LogUniform(1e-20, 1);
-    if (u < 0.4)
+    if (u < 0.4) {  // near the multiples of ln(2) / 2
       return 0.34657359027997264 * (random_.Index(553) - 299) +
              random_.Sign() * random_.LogUniform(1e-9, 1e-3);
+    }
     if (u < 0.5) return -87.4 - 16.6 * random_.Uniform();
     return -104 + 192 * random_.Uniform();
   }
@@ -326,8 +327,9 @@ class SceneMaker {
   // About the axis of a random quarter: exactly, or nearly.
   Vector AnyDirection() {
     const double cosine = Cosine();
-    if (random_.Chance(0.1))
+    if (random_.Chance(0.1)) {
       return Turned({std::sqrt((1 - cosine) * (1 + cosine)), 0, cosine}, random_.Index(4));
+    }
     return FromCosine(cosine, Azimuth());
   }
 
@@ -339,8 +341,8 @@ class SceneMaker {
     return kTwoPi * random_.Uniform();
   }
 
-  double CriticalCosine(double eta) const { return std::sqrt((1 - eta) * (1 + eta)); }
-  double BrewsterCosine(double eta) const { return 1 / std::sqrt(1 + eta * eta); }
+  static double CriticalCosine(double eta) { return std::sqrt((1 - eta) * (1 + eta)); }
+  static double BrewsterCosine(double eta) { return 1 / std::sqrt(1 + eta * eta); }
   // x and its neighbourhood, from a few roundings to a percent.
   double Near(double x) {
     return random_.Chance(0.5) ? Floats(x, random_.Index(9) - 4)
@@ -445,8 +447,9 @@ class SceneMaker {
     const bool nudge = random_.Chance(0.1);
     for (int k = 0; k < 3; ++k) {
       double& x = *components[k];
-      if (nudge)
+      if (nudge) {
         x = values_ == Values::kFloats ? Floats(x, random_.Index(9) - 4) : Doubles(x, random_.Index(9) - 4);
+      }
       x = Fit(static_cast<Field>(first + k), x, values_);
     }
     return v;

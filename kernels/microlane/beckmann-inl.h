@@ -134,8 +134,8 @@ struct Beckmann {
                                       Vec<D> u2, P... p) {
     u1 = BelowOne(d, u1);
     const Vec<D> area = hn::Mul(hn::Mul(AlphaX(p...), AlphaY(p...)), Const(d, kPi));
-    NormalFromSlopes<A>(d, mx, my, mz, pdf, Sqrt<A>(d, NegLog1m<A>(d, u1)), Const(d, 1), u2, area,
-                        AlphaX(p...), AlphaY(p...));
+    NormalFromSlopes<A>(d, mx, my, mz, pdf, hn::Sqrt(NegLog1m<A>(d, u1)), Const(d, 1), u2, area, AlphaX(p...),
+                        AlphaY(p...));
     pdf = hn::Mul(pdf, hn::Sub(Const(d, 1), u1));
   }
 

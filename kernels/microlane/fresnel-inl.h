@@ -67,9 +67,7 @@ struct FresnelOp {
     Vec<D> g2, unused;
     InDouble2<GSquaredOp>(d, g2, unused, c, eta);
     g2 = hn::IfThenElse(hn::Lt(g2, zero), zero, g2);
-    // R_p takes the error of p four times over.
-    constexpr Accuracy kRoot = kPart == FresnelPart::kP ? Accuracy::kStandard : A;
-    const Vec<D> p = hn::Mul(c, Sqrt<kRoot>(d, g2));
+    const Vec<D> p = hn::Mul(c, Sqrt<A>(d, g2));
     Vec<D> a, m, n;
     FresnelTerms<true>(d, a, m, n, c, g2, p, hn::NegMulAdd(c, c, one));
     const auto total = hn::Le(g2, zero);
@@ -106,7 +104,8 @@ struct FresnelOp {
 template <FresnelPart kPart, Accuracy A, class D>
 HWY_INLINE Vec<D> FresnelDielectric(D d, Vec<D> cos_i, Vec<D> eta) {
   Vec<D> out, unused;
-  Precisely<FresnelOp<kPart>, A>(d, out, unused, cos_i, eta);
+  // Near Brewster's angle the zero of R_p leaves nothing for kFast to save.
+  Precisely<FresnelOp<kPart>, kPart == FresnelPart::kP ? Accuracy::kStandard : A>(d, out, unused, cos_i, eta);
   return out;
 }
 

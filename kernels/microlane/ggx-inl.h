@@ -66,7 +66,7 @@ struct Ggx {
     u1 = BelowOne(d, u1);
     const Vec<D> w = hn::Sub(Const(d, 1), u1);
     const Vec<D> area = hn::Mul(hn::Mul(hn::Mul(AlphaX(p...), AlphaY(p...)), Const(d, kPi)), w);
-    NormalFromSlopes<A>(d, mx, my, mz, pdf, Sqrt<A>(d, hn::Mul(u1, w)), w, u2, area, AlphaX(p...),
+    NormalFromSlopes<A>(d, mx, my, mz, pdf, hn::Sqrt(hn::Mul(u1, w)), w, u2, area, AlphaX(p...),
                         AlphaY(p...));
   }
 };

@@ -373,7 +373,7 @@ HWY_INLINE void SampleRoughDielectric(D d, hn::Mask<D> radiance, Vec<D>& ox, Vec
   const Vec<D> km = hn::Mul(kr, m), kn = hn::Mul(kr, n);
   const Vec<D> reflectance = hn::Min(one, hn::Mul(Const(d, 0.5), hn::MulAdd(km, km, hn::Mul(kn, kn))));
   const Vec<D> transmittance =
-      hn::Mul(hn::Mul(hn::Mul(hn::Add(root, root), a), hn::Add(m2, eta2)), hn::Mul(r, r));
+      hn::Mul(hn::Mul(hn::Mul(hn::Add(root, root), a), hn::MulAdd(eta, eta, m2)), hn::Mul(r, r));
 
   const auto reflects = hn::Lt(u3, reflectance);
   // o = s m - t i: s = 2 c, t = 1, or s = (c - g)/eta = -(eta^2 - 1)/(eta (c + g)), t = 1/eta.

@@ -13,6 +13,7 @@
 
 #include <array>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
 #include "microlane/compat-inl.h"
@@ -47,6 +48,13 @@ template <class D>
 HWY_INLINE hn::Mask<D> RadianceMask(D d, Transport transport) {
   return hn::Eq(hn::Set(d, transport == Transport::kRadiance ? T<D>{0} : T<D>{1}), hn::Zero(d));
 }
+
+// K says by kPassesNan that NaN of any input reaches its outputs by itself; the loop sees to it for the
+// others.
+template <class K, class = void>
+inline constexpr bool kPassesNan = false;
+template <class K>
+inline constexpr bool kPassesNan<K, std::void_t<decltype(K::kPassesNan)>> = K::kPassesNan;
 
 // Finite in gives finite out: overflow becomes the largest finite number, and NaN that no input explains 0.
 template <class D, class... V>
@@ -88,6 +96,17 @@ HWY_INLINE void Loop(D d, const Call<T<D>>& call, std::size_t n, std::index_sequ
   const auto body = [&](std::size_t i, auto... v) HWY_ATTR {
     Vec<D> o0 = hn::Zero(d), o1 = o0, o2 = o0, o3 = o0, o4 = o0, o5 = o0;
     K::template Eval<A>(d, options, Outputs<D>{o0, o1, o2, o3, o4, o5}, v...);
+    if constexpr (!kPassesNan<K>) {
+      const Vec<D> nan = hn::Set(d, std::numeric_limits<TD>::quiet_NaN());
+      auto any = hn::MaskFromVec(hn::Zero(d));
+      ((any = hn::Or(any, hn::IsNaN(v))), ...);
+      o0 = hn::IfThenElse(any, nan, o0);
+      o1 = hn::IfThenElse(any, nan, o1);
+      o2 = hn::IfThenElse(any, nan, o2);
+      o3 = hn::IfThenElse(any, nan, o3);
+      o4 = hn::IfThenElse(any, nan, o4);
+      o5 = hn::IfThenElse(any, nan, o5);
+    }
     StoreTotal(d, o0, out[0] + i, v...);
     if constexpr (kOut > 1) StoreTotal(d, o1, out[1] + i, v...);
     if constexpr (kOut > 2) StoreTotal(d, o2, out[2] + i, v...);

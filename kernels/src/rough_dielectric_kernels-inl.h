@@ -19,6 +19,9 @@ namespace {
 template <class Dist, Lobes kLobes, JointMasking kG, bool kValue, bool kPdf, const std::string_view& kName>
 struct RoughDielectricKernel {
   static constexpr std::string_view kId = kName;
+  // Every input enters a product of the result; on SCALAR, Min and Max drop NaN.
+  static constexpr bool kPassesNan =
+      !Dist::kHasExponent && kValue && !kPdf && kLobes != Lobes::kTransmission && HWY_TARGET != HWY_SCALAR;
   template <Accuracy A, class D>
   static HWY_INLINE void Eval(D d, const Options<D>& options, const Outputs<D>& out, Vec<D> ix, Vec<D> iy,
                               Vec<D> iz, Vec<D> ox, Vec<D> oy, Vec<D> oz, Vec<D> p0, Vec<D> p1) {

@@ -136,7 +136,7 @@ struct RoughDielectric {
     sample.wo = wo;
     sample.weight = c * G2(wi, wo) / (abs(wi.z) * m.z);
     sample.pdf = distribution.D(m) * m.z;
-    sample.kappa = (1 + 1 / abs(c)) * (1 + c * c / abs(g2)) + 1 / abs(wo.z);
+    sample.kappa = (1 + 1 / abs(c)) * (1 + c * c / abs(g2)) * (1 + 1 / abs(wo.z));
     if (lobe == kReflection) {
       sample.pdf *= F * ReflectionJacobian(c);
     } else {
