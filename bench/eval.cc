@@ -45,8 +45,9 @@ class Reader {
  public:
   Reader(std::istream& stream, std::size_t kernel)
       : stream_(stream), kernel_(kKernels[kernel]), inputs_(Split(kernel_.inputs)), columns_(inputs_.count) {
-    if (!NextLine())
+    if (!NextLine()) {
       Fail(fmt::format("no header line; kernel {} has the inputs {}", kernel_.id, InputNames()));
+    }
     ReadHeader();
   }
 
@@ -66,8 +67,9 @@ class Reader {
 
   std::string InputNames() const {
     std::string names;
-    for (std::size_t k = 0; k < inputs_.count; ++k)
+    for (std::size_t k = 0; k < inputs_.count; ++k) {
       names += (k == 0 ? "" : " ") + std::string(inputs_.name[k]);
+    }
     return names;
   }
 
@@ -151,9 +153,7 @@ void Append(fmt::memory_buffer& buffer, Number value, bool decimal) {
   const auto out = fmt::appender(buffer);
   if (std::isnan(value)) {
     fmt::format_to(out, "nan");
-  } else if (decimal) {
-    fmt::format_to(out, "{}", value);
-  } else if (std::isinf(value)) {
+  } else if (decimal || std::isinf(value)) {
     fmt::format_to(out, "{}", value);
   } else {
     char text[40];
@@ -258,8 +258,9 @@ void Eval(const EvalOptions& options) {
   }
   if (options.id.empty()) Fail("eval: which kernel? `microlane list` names them all");
   const std::size_t kernel = KernelIndex(options.id);
-  if (kernel == kNumKernels)
+  if (kernel == kNumKernels) {
     Fail(fmt::format("unknown kernel '{}'; `microlane list` names them all", options.id));
+  }
   if (options.transport != "radiance" && options.transport != "importance") {
     Fail(fmt::format("unknown transport '{}'; there are: radiance importance", options.transport));
   }
@@ -268,8 +269,9 @@ void Eval(const EvalOptions& options) {
   const bool is_oracle = options.target == "oracle";
   if (!options.accuracy.empty()) {
     ParseAccuracy(options.accuracy);
-    if (is_scalar || is_oracle)
+    if (is_scalar || is_oracle) {
       Fail(fmt::format("--accuracy does not apply to the target {}", options.target));
+    }
     if (options.double_lanes) Fail("--accuracy does not apply to double lanes, which have one");
   }
   if (!is_scalar && !is_oracle) UseTarget(options.target);

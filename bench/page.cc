@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 
@@ -96,8 +96,9 @@ std::string MainTable(const ReportData& data) {
   for (const KernelResult& result : data.kernels) {
     html += "<tr>" + Cell(std::string(kKernels[result.kernel].id));
     for (const PathResult& path : result.path) html += Cell(Short(path.time.min));
-    for (const Path path : {Path::kHigh, Path::kStandard, Path::kFast})
+    for (const Path path : {Path::kHigh, Path::kStandard, Path::kFast}) {
       html += Cell(Short(result.Speedup(path)));
+    }
     for (const Path path : {Path::kHigh, Path::kStandard, Path::kFast}) {
       html += counted ? Cell(Short(result.OverFloor(path)), result.OverFloor(path) > 1.3 ? "bad" : "")
                       : Cell("-");
@@ -144,9 +145,8 @@ std::string TargetTable(const ReportData& data) {
   if (data.targets.empty()) return "";
   std::vector<std::string> targets;
   for (const TargetTime& time : data.targets) {
-    if (targets.empty() || targets.back() != time.target) {
-      if (std::find(targets.begin(), targets.end(), time.target) == targets.end())
-        targets.push_back(time.target);
+    if (std::find(targets.begin(), targets.end(), time.target) == targets.end()) {
+      targets.push_back(time.target);
     }
   }
   std::string html = "<div class=\"wide\"><table><thead><tr><th rowspan=2>kernel";
@@ -159,8 +159,9 @@ std::string TargetTable(const ReportData& data) {
     for (const std::string& target : targets) {
       for (const Path path : {Path::kHigh, Path::kStandard, Path::kFast}) {
         for (const TargetTime& time : data.targets) {
-          if (time.target == target && time.kernel == result.kernel && time.path == path)
+          if (time.target == target && time.kernel == result.kernel && time.path == path) {
             html += Cell(Short(time.ns));
+          }
         }
       }
     }

@@ -29,20 +29,21 @@ std::size_t Index(Path path) { return static_cast<std::size_t>(path); }
 
 std::string ErrorAxis(char axis) {
   return fmt::format(
-      "set logscale {0}\nset {0}range [{1}:{2}]\nset format {0} '10^{{%T}}'\n"
+      "set logscale {0}\nset {0}range [{1}:{2}]\n"
       "set {0}tics ('0.1' 0.1, '1' 1, '10' 10, '100' 100, '10^3' 1e3, '10^4' 1e4, '10^5' 1e5, '10^6' 1e6, "
       "'10^7' 1e7, "
-      "'10^8' 1e8, '≥10^9' 1e9)\n",
+      "'' 1e8, '≥10^9' 1e9)\n",
       axis, kErrorLow * 0.6, kErrorHigh * 2);
 }
 
 // Tics at powers of ten, and at 2 and 5 times these where there is room.
 std::string DecadeTics(char axis, double low, double high) {
   std::string tics;
-  for (double decade = std::pow(10, std::floor(std::log10(low))); decade <= high; decade *= 10) {
-    for (const double step : {1.0, 2.0, 5.0}) {
+  const int last = static_cast<int>(std::floor(std::log10(high)));
+  for (int exponent = static_cast<int>(std::floor(std::log10(low))); exponent <= last; ++exponent) {
+    for (const int step : {1, 2, 5}) {
       if (step > 1 && high > 3000 * low) continue;
-      const double at = step * decade;
+      const double at = step * std::pow(10, exponent);
       if (at >= low && at <= high) tics += fmt::format("{}'{:g}' {:g}", tics.empty() ? "" : ", ", at, at);
     }
   }
@@ -146,12 +147,13 @@ std::string ErrorScript(const ReportData& data) {
 }
 
 std::string FloorScript(const ReportData& data) {
-  Range range;
+  double largest = 2;
   for (const KernelResult& result : data.kernels) {
-    for (const Path path : kLanePaths) range.Add(result.OverFloor(path));
+    for (const Path path : kLanePaths) largest = std::max(largest, result.OverFloor(path));
   }
   return fmt::format("set title 'Time over the floor of the kernel''s own operations, {}'\n", data.target) +
-         "set xlabel 'ns / floor'\n" + LogAxis('x', range, 1.1) + VerticalLine(1.3, "#c0392b") +
+         fmt::format("set xlabel 'ns / floor'\nset xrange [0.8:{:.1f}]\nset xtics 0.2\n", largest + 0.1) +
+         VerticalLine(1.3, "#c0392b") +
          Rows(data, {Path::kHigh, Path::kStandard, Path::kFast},
               [](const KernelResult& result, Path path) { return result.OverFloor(path); }) +
          ", NaN with lines dt 2 lc rgb '#c0392b' title 'goal: 1.3'\n";
@@ -197,7 +199,7 @@ std::string GlassScript(const ReportData& data, const std::string& glass) {
                           count == 0 ? "plot " : ", ", count, dash, colour, curve.fit.distribution,
                           curve.incidence);
     curves += fmt::format(", $c{} using 1:3 every {} with points pt 6 ps 0.5 lc rgb '{}' notitle", count,
-                          narrow ? 12 : 25, colour);
+                          narrow ? 4 : 25, colour);
     differences += fmt::format("{}$d{} using 1:2 with lines lw 1.3 dt {} lc rgb '{}' notitle",
                                count == 0 ? "plot " : ", ", count, dash, colour);
     ++count;
@@ -286,7 +288,12 @@ std::string WritePlots(const ReportData& data, const std::filesystem::path& fold
   }
   for (std::size_t i = 0; i < plots.size(); ++i) {
     progress(i, plots.size());
-    const int width = i < wide ? 1000 : 620, height = i < overviews ? rows : i < wide ? 760 : 340;
+    const int width = i < overviews ? 1150
+                      : i < wide    ? 1000
+                                    : 620,
+              height = i < overviews ? rows
+                       : i < wide    ? 760
+                                     : 340;
     const std::string error = Draw(folder, plots[i].first, width, height, plots[i].second);
     if (!error.empty()) return error;
   }

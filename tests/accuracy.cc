@@ -311,6 +311,7 @@ void ForChunks(const AccuracyOptions& options, std::uint64_t count, Tallies& tot
       ++done;
       if (reports && options.progress) options.progress(done_before + done * kChunk, all);
     }
+    if (!reports) mpfr_free_cache2(MPFR_FREE_LOCAL_CACHE);  // this thread's
     const std::lock_guard<std::mutex> lock(mutex);
     total.Add(mine);
   };
@@ -528,15 +529,19 @@ std::string Describe(std::size_t kernel, const AccuracyOptions& options, const A
   const std::string target = IsScalar(options) || !options.target.empty() ? options.target : ChosenTarget();
   char text[400];
   std::snprintf(
-      text, sizeof text,
-      "%s %s %s: %llu points, max %.4g ulp (bound %g), mean %.3g, nan %llu, inf %llu, worst %s got %a (%g) "
-      "exact %a (%g)%s at ",
+      text, sizeof text, "%s %s %s: %llu points, max %.4g ulp (bound %g), mean %.3g, nan %llu, inf %llu, ",
       std::string(kKernels[kernel].id).c_str(), AccuracyName(options).c_str(), target.c_str(),
       static_cast<unsigned long long>(report.points), report.max_ulp, report.bound, output.mean_ulp,
-      static_cast<unsigned long long>(report.nan_count), static_cast<unsigned long long>(report.inf_count),
-      output.name.c_str(), output.worst.got, output.worst.got, output.worst.exact, output.worst.exact,
-      output.worst.transport == Transport::kImportance ? " importance" : "");
-  return text + Describe(kernel, output.worst.in);
+      static_cast<unsigned long long>(report.nan_count), static_cast<unsigned long long>(report.inf_count));
+  std::string line = text;
+  if (report.lobes_excused + report.undetermined != 0) {
+    line += "other lobe " + std::to_string(report.lobes_excused) + ", undetermined " +
+            std::to_string(report.undetermined) + ", ";
+  }
+  std::snprintf(text, sizeof text, "worst %s got %a (%g) exact %a (%g)%s at ", output.name.c_str(),
+                output.worst.got, output.worst.got, output.worst.exact, output.worst.exact,
+                output.worst.transport == Transport::kImportance ? " importance" : "");
+  return line + text + Describe(kernel, output.worst.in);
 }
 
 }  // namespace microlane
