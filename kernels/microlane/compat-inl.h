@@ -144,6 +144,17 @@ HWY_INLINE Vec<D> FusedMulAdd(D d, Vec<D> a, Vec<D> b, Vec<D> c) {
 #endif
 }
 
+// a b - c rounded once on every target.
+template <class D>
+HWY_INLINE Vec<D> FusedMulSub(D d, Vec<D> a, Vec<D> b, Vec<D> c) {
+#if HWY_NATIVE_FMA
+  (void)d;
+  return hn::MulSub(a, b, c);
+#else
+  return FusedMulAdd(d, a, b, hn::Neg(c));
+#endif
+}
+
 // Op::Run<kStandard> in double lanes, rounded once; with kFast, Op::Run<kFast> in the lanes given.
 template <class Op>
 struct InStandard {

@@ -1,9 +1,9 @@
 // Dielectric Fresnel (Walter 2007 Eq. 22) in lanes, from squares: with c = |i.m|, g = sqrt(eta^2 - 1 + c^2),
-// p = c g, k = eta^2 - 1, A = (g + c)^2 = g^2 + c^2 + 2 p, M = p + (1 - c^2) and N = p - (1 - c^2),
-//   F = k^2 (M^2 + N^2) / (2 (A M)^2)   since (g - c)(g + c) = k,
+// p = c g, s^2 = 1 - c^2, k = eta^2 - 1, A = (g + c)^2 = g^2 + c^2 + 2 p and M = p + s^2,
+//   F = k^2 (p^2 + s^4) / (A M)^2   since (g - c)(g + c) = k,
 //   T = 1 - F = 2 p A (M^2 + eta^2) / (A M)^2,
 //   R_s = (k/A)^2,   R_p = (k ((eta^2 + 1) c^2 - 1) / (A M^2))^2.
-// One root (p) and one division; nothing cancels but N, at Brewster's angle, where F does not depend on it.
+// One root (p) and one division; nothing cancels.
 #if defined(MICROLANE_FRESNEL_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef MICROLANE_FRESNEL_INL_H_
 #undef MICROLANE_FRESNEL_INL_H_
@@ -18,17 +18,16 @@ namespace microlane {
 namespace HWY_NAMESPACE {
 namespace {
 
-// A, M and N times a common scale of c^2, g^2, p and s^2 = 1 - c^2. kKeepPositive: A stays above 0 where c =
-// g = 0 (no interface, no light), so that 0/0 is 0.
+// A and M times a common scale of c^2, g^2, p and s^2. kKeepPositive: A stays above 0 where c = g = 0 (no
+// interface, no light), so that 0/0 is 0.
 template <bool kKeepPositive, class D>
-HWY_INLINE void FresnelTerms(D d, Vec<D>& a, Vec<D>& m, Vec<D>& n, Vec<D> c, Vec<D> g2, Vec<D> p, Vec<D> s2) {
-  a = hn::MulAdd(c, c, hn::MulAdd(Const(d, 2), p, g2));
+HWY_INLINE void FresnelTerms(D d, Vec<D>& a, Vec<D>& m, Vec<D> c2_plus_g2, Vec<D> p, Vec<D> s2) {
+  a = hn::MulAdd(Const(d, 2), p, c2_plus_g2);
   if constexpr (kKeepPositive) {
     const Vec<D> low = Const(d, kIsFloat<D> ? 1e-30 : 1e-280);
     a = hn::IfThenElse(hn::Lt(a, low), low, a);
   }
   m = hn::Add(p, s2);
-  n = hn::Sub(p, s2);
 }
 
 // eta^2 - 1, rounded once.
@@ -68,8 +67,9 @@ struct FresnelOp {
     InDouble2<GSquaredOp>(d, g2, unused, c, eta);
     g2 = hn::IfThenElse(hn::Lt(g2, zero), zero, g2);
     const Vec<D> p = hn::Mul(c, Sqrt<A>(d, g2));
-    Vec<D> a, m, n;
-    FresnelTerms<true>(d, a, m, n, c, g2, p, hn::NegMulAdd(c, c, one));
+    const Vec<D> s2 = hn::NegMulAdd(c, c, one);
+    Vec<D> a, m;
+    FresnelTerms<true>(d, a, m, hn::MulAdd(c, c, g2), p, s2);
     const auto total = hn::Le(g2, zero);
     const Vec<D> total_value = ZeroIf(hn::Eq(k, zero), one);
     if constexpr (kPart == FresnelPart::kS) {
@@ -92,8 +92,8 @@ struct FresnelOp {
       const Vec<D> t = Div<A>(d, hn::Mul(hn::Add(p, p), hn::MulAdd(eta, eta, m2)), hn::Mul(a, m2));
       return hn::IfThenElse(hn::Eq(k, zero), hn::MulAdd(c, zero, one), t);
     } else {
-      const Vec<D> kr = Div<A>(d, k, hn::Mul(a, m)), km = hn::Mul(kr, m), kn = hn::Mul(kr, n);
-      const Vec<D> f = hn::Mul(Const(d, 0.5), hn::MulAdd(km, km, hn::Mul(kn, kn)));
+      const Vec<D> kr = Div<A>(d, k, hn::Mul(a, m)), kp = hn::Mul(kr, p), ks = hn::Mul(kr, s2);
+      const Vec<D> f = hn::MulAdd(kp, kp, hn::Mul(ks, ks));
       return hn::IfThenElse(total, total_value, f);
     }
   }

@@ -23,42 +23,112 @@ namespace {
 enum class Lobes { kReflection, kTransmission, kBoth };
 enum class JointMasking { kSeparable, kHeightCorrelated };  // Walter 2007 Eq. 23; Heitz 2014 Eq. 99
 
-// i.H, o.H, H.H and g^2 H.H of a half vector H.
-template <class D>
-HWY_INLINE void InterfaceTerms(D d, Vec<D>& ih, Vec<D>& oh, Vec<D>& h2, Vec<D>& g2, Vec<D> ix, Vec<D> iy,
-                               Vec<D> iz, Vec<D> ox, Vec<D> oy, Vec<D> oz, Vec<D> hx, Vec<D> hy, Vec<D> hz,
-                               Vec<D> eta) {
-  ih = Dot(ix, iy, iz, hx, hy, hz);
-  oh = Dot(ox, oy, oz, hx, hy, hz);
-  h2 = Dot(hx, hy, hz, hx, hy, hz);
-  g2 = hn::MulAdd(ih, ih, hn::Mul(EtaSquaredMinus1(d, eta), h2));
+// The lane's own of two values of lobes.
+template <Lobes kLobes, class M, class V>
+HWY_INLINE V OfLobe(M transmits, V transmitted, V reflected) {
+  return kLobes == Lobes::kBoth         ? hn::IfThenElse(transmits, transmitted, reflected)
+         : kLobes == Lobes::kReflection ? reflected
+                                        : transmitted;
 }
 
-// i.H, o.H, s^2 H.H with s^2 = 1 - c^2, g^2 H.H and the exponent of D (as two numbers) for H = i + e o, for
-// double lanes.
-template <class Dist>
+// c^2, s^2 = 1 - c^2 and g^2 from i.H, o.H, H.H and k = eta^2 - 1: times H.H in transmission. In reflection
+// as they are, through c^2 = i.H - H.H/4, which for vectors of lengths li and lo lacks a relative ((li^2 -
+// lo^2)/H.H)^2.
+template <Lobes kLobes, class D>
+HWY_INLINE void TermsOfDots(D d, Vec<D>& c2, Vec<D>& s2, Vec<D>& g2, hn::Mask<D> transmits, Vec<D> ih,
+                            Vec<D> h2, Vec<D> k) {
+  const Vec<D> c2r = hn::NegMulAdd(Const(d, 0.25), h2, ih), c2t = hn::Mul(ih, ih);
+  c2 = OfLobe<kLobes>(transmits, c2t, c2r);
+  s2 = OfLobe<kLobes>(transmits, hn::NegMulAdd(ih, ih, h2), hn::Sub(Const(d, 1), c2r));
+  g2 = OfLobe<kLobes>(transmits, hn::MulAdd(k, h2, c2t), hn::Add(k, c2r));
+}
+
+// The same with the dots and the exponent of D (as two numbers) for H = i + e o, for double lanes.
+template <class Dist, Lobes kLobes>
 struct InterfaceOp {
   template <class DD, class... P>
   static HWY_INLINE void Run(DD dd, Vec<DD>& ih, Vec<DD>& oh, Vec<DD>& s2, Vec<DD>& g2, Vec<DD>& log_high,
                              Vec<DD>& log_low, Vec<DD> ix, Vec<DD> iy, Vec<DD> iz, Vec<DD> ox, Vec<DD> oy,
                              Vec<DD> oz, Vec<DD> e, Vec<DD> eta, P... p) {
     const Vec<DD> hx = hn::MulAdd(e, ox, ix), hy = hn::MulAdd(e, oy, iy), hz = hn::MulAdd(e, oz, iz);
-    Vec<DD> h2;
-    InterfaceTerms(dd, ih, oh, h2, g2, ix, iy, iz, ox, oy, oz, hx, hy, hz, eta);
-    s2 = hn::NegMulAdd(ih, ih, h2);
-    if constexpr (Dist::kHasExponent) {
-      SplitHigh(dd, Dist::LogDensity(dd, hx, hy, hz, p...), log_high, log_low);
-    } else {
-      log_high = log_low = h2;
-    }
+    ih = Dot(ix, iy, iz, hx, hy, hz);
+    oh = Dot(ox, oy, oz, hx, hy, hz);
+    Vec<DD> c2;
+    TermsOfDots<kLobes>(dd, c2, s2, g2, hn::Lt(oz, hn::Zero(dd)), ih, Dot(hx, hy, hz, hx, hy, hz),
+                        EtaSquaredMinus1(dd, eta));
+    SplitHigh(dd, Dist::LogDensity(dd, hx, hy, hz, p...), log_high, log_low);
   }
 };
 
-// Out of line: few lanes need it.
-template <class Dist, class D, class... In>
-HWY_NOINLINE void InterfaceInDouble(D d, Vec<D>& ih, Vec<D>& oh, Vec<D>& s2, Vec<D>& g2, In... in) {
-  Vec<D> high, low;
-  InDouble6<InterfaceOp<Dist>>(d, ih, oh, s2, g2, high, low, in...);
+// x = high + low with high a multiple of 2^-11, |x| < 2048: sums below 4 of products of two highs are exact.
+template <class D>
+HWY_INLINE void SplitOnGrid(D d, Vec<D> x, Vec<D>& high, Vec<D>& low) {
+  const Vec<D> shift = Const(d, 0x1.8p12);
+  high = hn::Sub(hn::Add(x, shift), shift);
+  low = hn::Sub(x, high);
+}
+
+// a = i.i - 1, b = o.o - 1 and w + w_low = 1 + i.o of float directions of length 1 to within 2^-35, where
+// float products would leave 2^-24. w is on the grid of 2^-22.
+template <class D>
+HWY_INLINE void UnitDots(D d, Vec<D>& a, Vec<D>& b, Vec<D>& w, Vec<D>& w_low, Vec<D> ix, Vec<D> iy, Vec<D> iz,
+                         Vec<D> ox, Vec<D> oy, Vec<D> oz) {
+  Vec<D> ixh, ixl, iyh, iyl, izh, izl, oxh, oxl, oyh, oyl, ozh, ozl;
+  SplitOnGrid(d, ix, ixh, ixl);
+  SplitOnGrid(d, iy, iyh, iyl);
+  SplitOnGrid(d, iz, izh, izl);
+  SplitOnGrid(d, ox, oxh, oxl);
+  SplitOnGrid(d, oy, oyh, oyl);
+  SplitOnGrid(d, oz, ozh, ozl);
+  const Vec<D> one = Const(d, 1);
+  a = hn::Add(hn::MulAdd(ixh, ixh, hn::MulAdd(iyh, iyh, hn::MulSub(izh, izh, one))),
+              Dot(ixl, iyl, izl, hn::Add(ix, ixh), hn::Add(iy, iyh), hn::Add(iz, izh)));
+  b = hn::Add(hn::MulAdd(oxh, oxh, hn::MulAdd(oyh, oyh, hn::MulSub(ozh, ozh, one))),
+              Dot(oxl, oyl, ozl, hn::Add(ox, oxh), hn::Add(oy, oyh), hn::Add(oz, ozh)));
+  w = hn::MulAdd(ixh, oxh, hn::MulAdd(iyh, oyh, hn::MulAdd(izh, ozh, one)));
+  w_low = hn::Add(Dot(ixl, iyl, izl, ox, oy, oz), Dot(ixh, iyh, izh, oxl, oyl, ozl));
+}
+
+// The terms of TermsOfDots, i.H, o.H and H.H of H = i + e o in float lanes to a rounding or two. `ill` where
+// more is lost: lengths not near 1, H near 0, a facet seen edge-on.
+template <Lobes kLobes, class D>
+HWY_INLINE void InterfaceTermsSplit(D d, Vec<D>& ih, Vec<D>& oh, Vec<D>& h2, Vec<D>& c2, Vec<D>& s2,
+                                    Vec<D>& g2, hn::Mask<D>& ill, hn::Mask<D> transmits, Vec<D> ix, Vec<D> iy,
+                                    Vec<D> iz, Vec<D> ox, Vec<D> oy, Vec<D> oz, Vec<D> e, Vec<D> eta) {
+  Vec<D> a, b, w, w_low;
+  UnitDots(d, a, b, w, w_low, ix, iy, iz, ox, oy, oz);
+  const Vec<D> half = Const(d, 0.5), one = Const(d, 1), two = Const(d, 2);
+  // Reflection: c^2 = w/2 + (3 a - b)/4, and w/2 - 1 is exact.
+  const Vec<D> low = hn::MulAdd(half, w_low, hn::MulSub(Const(d, 0.75), a, hn::Mul(Const(d, 0.25), b)));
+  const Vec<D> s2_high = hn::NegMulAdd(half, w, one);
+  const Vec<D> c2r = hn::MulAdd(half, w, low), s2r = hn::Sub(s2_high, low);
+  const Vec<D> g2r = hn::Add(FusedMulSub(d, eta, eta, s2_high), low);
+  if constexpr (kLobes == Lobes::kReflection) {
+    h2 = hn::MulAdd(two, w, hn::MulAdd(two, w_low, hn::Add(a, b)));
+    oh = hn::Mul(hn::Add(h2, hn::Sub(b, a)), half);
+    ih = hn::Sub(h2, oh);
+    c2 = c2r;
+    s2 = s2r;
+    g2 = g2r;
+  } else {
+    // s^2 H.H = e^2 ((i.i)(o.o) - (i.o)^2) - a H.H, and g^2 H.H = (e o.H)^2 + (a - e^2 b) H.H of a refracted
+    // o.
+    const Vec<D> r = hn::Sub(one, e), r_low = hn::Sub(hn::Sub(one, r), e), e2 = hn::Mul(e, e),
+                 two_e = hn::Add(e, e);
+    ih = hn::Add(FusedMulAdd(d, e, w, r), hn::MulAdd(e, w_low, hn::Add(a, r_low)));
+    oh = hn::Add(hn::Sub(w, r), hn::MulAdd(e, b, hn::Sub(w_low, r_low)));
+    h2 = hn::MulAdd(r, r, hn::MulAdd(two_e, w, hn::MulAdd(two_e, w_low, hn::MulAdd(e2, b, a))));
+    const Vec<D> w1 = hn::Add(w, w_low), eoh = hn::Mul(e, oh);
+    const Vec<D> cross2 = hn::MulAdd(hn::Sub(two, w1), w1, hn::MulAdd(a, b, hn::Add(a, b)));
+    c2 = OfLobe<kLobes>(transmits, hn::Mul(ih, ih), c2r);
+    s2 = OfLobe<kLobes>(transmits, hn::NegMulAdd(a, h2, hn::Mul(e2, cross2)), s2r);
+    g2 = OfLobe<kLobes>(transmits, hn::MulAdd(eoh, eoh, hn::Mul(hn::NegMulAdd(e2, b, a), h2)), g2r);
+  }
+  const Vec<D> off = hn::Max(hn::Abs(a), hn::Abs(b));
+  ill = hn::Lt(h2, hn::MulAdd(off, Const(d, 0x1p13), Const(d, 0x1p-11)));
+  if constexpr (kLobes != Lobes::kReflection) {
+    ill = hn::Or(ill, hn::Lt(hn::Min(hn::Abs(ih), hn::Abs(oh)), Const(d, 0x1p-12)));
+  }
 }
 
 // a + a_tail += x (h + h_tail), to twice the working precision.
@@ -122,23 +192,8 @@ HWY_INLINE V MaskingDenominator(V zi, V mu_i, V zo, V mu_o) {
 template <JointMasking kG>
 constexpr double kMaskingFactor = kG == JointMasking::kHeightCorrelated ? 2 : 4;
 
-// Where the dot products have lost too much to cancellation: F depends on i.H by 4/g times its error; T and
-// the refracted value also on the relative errors of i.H, o.H and g. Below the critical angle g^2 is negative
-// and counts by its size. kG2, kC2: least g^2 and cos^2 that are still good.
-template <bool kFresnel, bool kCosines, class D>
-HWY_INLINE hn::Mask<D> IllConditioned(D d, double least_g2, double least_c2, Vec<D> ih, Vec<D> oh, Vec<D> h2,
-                                      Vec<D> g2) {
-  auto ill = hn::MaskFromVec(hn::Zero(d));
-  if constexpr (kFresnel) ill = hn::Lt(hn::Abs(g2), hn::Mul(h2, Const(d, least_g2)));
-  if constexpr (kCosines) {
-    const auto edge_on = hn::Lt(hn::Min(hn::Mul(ih, ih), hn::Mul(oh, oh)), hn::Mul(h2, Const(d, least_c2)));
-    ill = kFresnel ? hn::Or(ill, edge_on) : edge_on;
-  }
-  return ill;
-}
-
 // One pass. In float lanes `hard` marks the lanes that double lanes must do: some product may have
-// underflowed, or cancellation has taken more than InterfaceInDouble gives back.
+// underflowed, or cancellation has taken too much.
 template <class Dist, Lobes kLobes, JointMasking kG, bool kValue, bool kPdf, Accuracy A, class D, class... P>
 HWY_INLINE void RoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& value, Vec<D>& pdf, hn::Mask<D>& hard,
                                     Vec<D> ix, Vec<D> iy, Vec<D> iz, Vec<D> ox, Vec<D> oy, Vec<D> oz,
@@ -172,17 +227,25 @@ HWY_INLINE void RoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& value, Ve
     hz = hn::Mul(hz, scale);
   }
 
-  // s2: 1 - c^2, times H.H like g2. It cancels where c is near 1, which matters only together with a small g.
-  Vec<D> ih, oh, h2, s2, g2, log_high = zero, log_low = zero;
-  if constexpr (!kWide && !kFast && (Dist::kHasExponent || kNeedsCosines)) {
-    InDouble6<InterfaceOp<Dist>>(d, ih, oh, s2, g2, log_high, log_low, ix, iy, iz, ox, oy, oz, e, eta, p...);
-    h2 = hn::MulAdd(ih, ih, s2);
-  } else {
-    InterfaceTerms(d, ih, oh, h2, g2, ix, iy, iz, ox, oy, oz, hx, hy, hz, eta);
-    if constexpr (!kNeedsCosines && !kWide) oh = hn::Sub(h2, ih);
+  // i.H, o.H, H.H, and c^2, s^2 = 1 - c^2 and g^2 times `norm`, which is H.H in double lanes and in
+  // transmission.
+  constexpr Lobes kScaled = kWide ? Lobes::kTransmission : kLobes;
+  const Vec<D> k = EtaSquaredMinus1(d, eta);
+  Vec<D> ih, oh, h2, c2, s2, g2, log_high = zero, log_low = zero;
+  if constexpr (kWide || kFast) {
+    ih = Dot(ix, iy, iz, hx, hy, hz);
+    h2 = Dot(hx, hy, hz, hx, hy, hz);
+    oh = kWide || kNeedsCosines ? Dot(ox, oy, oz, hx, hy, hz) : hn::Sub(h2, ih);
     if constexpr (Dist::kHasExponent) log_high = Dist::LogDensity(d, hx, hy, hz, p...);
+    TermsOfDots<kScaled>(d, c2, s2, g2, transmits, ih, h2, k);
     if constexpr (kWide) {
-      const auto ill = IllConditioned<kNeedsFresnel, kNeedsCosines>(d, 0x1p-18, 0x1p-40, ih, oh, h2, g2);
+      // F depends on the dots by 4/g times their errors, T also on the relative errors of i.H, o.H and g.
+      auto ill = hn::MaskFromVec(zero);
+      if constexpr (kNeedsFresnel) ill = hn::Lt(hn::Abs(g2), hn::Mul(h2, Const(d, 0x1p-18)));
+      if constexpr (kNeedsCosines) {
+        const Vec<D> least = hn::Min(c2, hn::Mul(oh, oh));
+        ill = hn::Or(ill, hn::Lt(least, hn::Mul(h2, Const(d, 0x1p-40))));
+      }
       if (HWY_UNLIKELY(!hn::AllFalse(d, ill))) {
         Vec<D> ih_, oh_, h2_, g2_;
         InterfaceTermsTwice(d, ih_, oh_, h2_, g2_, ix, iy, iz, ox, oy, oz, e, eta, scale);
@@ -190,27 +253,37 @@ HWY_INLINE void RoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& value, Ve
         oh = hn::IfThenElse(ill, oh_, oh);
         h2 = hn::IfThenElse(ill, h2_, h2);
         g2 = hn::IfThenElse(ill, g2_, g2);
+        c2 = hn::Mul(ih, ih);
+        s2 = hn::NegMulAdd(ih, ih, h2);
       }
     }
-    s2 = hn::NegMulAdd(ih, ih, h2);
-    if constexpr (!kWide && !kFast) {
-      const auto ill = IllConditioned<true, false>(d, 1, 0, ih, oh, h2, g2);
-      if (HWY_UNLIKELY(!hn::AllFalse(d, ill))) {
-        Vec<D> ih_, oh_, s2_, g2_;
-        InterfaceInDouble<Dist>(d, ih_, oh_, s2_, g2_, ix, iy, iz, ox, oy, oz, e, eta, p...);
-        ih = hn::IfThenElse(ill, ih_, ih);
-        oh = hn::IfThenElse(ill, oh_, oh);
-        s2 = hn::IfThenElse(ill, s2_, s2);
-        g2 = hn::IfThenElse(ill, g2_, g2);
-        hard = IllConditioned<true, false>(d, 0x1p-22, 0, ih, oh, h2, g2);
-      }
+  } else if constexpr (Dist::kHasExponent) {
+    InDouble6<InterfaceOp<Dist, kLobes>>(d, ih, oh, s2, g2, log_high, log_low, ix, iy, iz, ox, oy, oz, e, eta,
+                                         p...);
+    const Vec<D> c2t = hn::Mul(ih, ih);
+    h2 = OfLobe<kLobes>(transmits, hn::Add(c2t, s2), hn::Add(ih, oh));
+    c2 = OfLobe<kLobes>(transmits, c2t, hn::NegMulAdd(Const(d, 0.25), h2, ih));
+  } else {
+    InterfaceTermsSplit<kLobes>(d, ih, oh, h2, c2, s2, g2, hard, transmits, ix, iy, iz, ox, oy, oz, e, eta);
+  }
+  const Vec<D> h4 = hn::Mul(h2, h2), norm2 = OfLobe<kScaled>(transmits, h4, one);
+  if constexpr (!kWide && (kFast || Dist::kHasExponent)) {
+    const Vec<D> skew = hn::Mul(hn::Sub(ih, oh), Const(d, kFast ? 0x1p6 : 0x1p13));
+    if constexpr (kReflects) hard = hn::Lt(h2, OfLobe<kLobes>(transmits, zero, hn::Abs(skew)));
+    if constexpr (kNeedsCosines) {
+      const Vec<D> cos2 = hn::Min(hn::Mul(ih, ih), hn::Mul(oh, oh));
+      hard = hn::Or(hard, hn::Lt(cos2, hn::Mul(h2, Const(d, kFast ? 0x1p-19 : 0x1p-30))));
     }
   }
-  if constexpr (kFast && !kWide && !kNeedsCosines) {
-    hard = hn::Lt(hn::Abs(g2), Const(d, 0x1p-11));
-  } else if constexpr (!kWide && (kFast || Dist::kHasExponent || kNeedsCosines)) {
-    hard = IllConditioned<kNeedsFresnel, kNeedsCosines>(d, kFast ? 0x1p-9 : 0x1p-22,
-                                                        kFast ? 0x1p-17 : 0x1p-20, ih, oh, h2, g2);
+  if constexpr (!kWide && kNeedsFresnel) {
+    // The error of g^2 reaches F divided by c g, T divided by g^2.
+    constexpr double kLeast = kFast ? 0x1p-13 : Dist::kHasExponent ? 0x1p-24 : 0x1p-19;
+    hard = hn::Or(hard, hn::Lt(hn::Abs(hn::Mul(c2, g2)), hn::Mul(norm2, Const(d, kLeast))));
+    if constexpr (kTransmits) {
+      constexpr double kLeastT = kFast ? 0x1p-10 : Dist::kHasExponent ? 0x1p-22 : 0x1p-13;
+      hard =
+          hn::Or(hard, hn::Lt(hn::Abs(g2), OfLobe<kLobes>(transmits, hn::Mul(h2, Const(d, kLeastT)), zero)));
+    }
   }
 
   // Sidedness (Walter 2007 Eq. 7), H taken as pointing to the upper side.
@@ -221,9 +294,9 @@ HWY_INLINE void RoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& value, Ve
     least = hn::Min(hn::Min(least, hz), hn::Min(side_i, side_o));
     ih = hn::Abs(ih);
     oh = hn::Abs(oh);
-  } else {
+  } else if constexpr (kWide) {
     least = hn::Min(least, hn::Min(ih, oh));
-  }
+  }  // else i.H and o.H are positive, near H.H/2
   auto invalid = hn::Le(least, zero);
   if constexpr (!kReflects) invalid = hn::Or(invalid, hn::Gt(oz, zero));
 
@@ -232,12 +305,14 @@ HWY_INLINE void RoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& value, Ve
   Dist::template Density<Care::kPlain>(d, density, unused, w, hx, hy, hz, p...);
 
   // Fresnel, from squares times H.H; q = A M.
-  Vec<D> a = one, m = one, n = one, q = one, root = one;
-  const Vec<D> k = EtaSquaredMinus1(d, eta), eta2 = hn::Mul(eta, eta);
+  Vec<D> a = one, m = one, q = one, root = one, p2 = one;
+  const Vec<D> eta2 = hn::Mul(eta, eta);
   if constexpr (kNeedsFresnel) {
-    g2 = hn::Max(kFast ? Const(d, 1e-37) : zero, g2);
-    root = hn::Mul(ih, SqrtOfPositive<A>(d, g2));
-    FresnelTerms<kWide>(d, a, m, n, ih, g2, root, s2);
+    g2 = hn::Max(kFast ? Const(d, 1e-25) : zero, g2);
+    p2 = hn::Mul(c2, g2);
+    root = SqrtOfPositive<A>(d, p2);
+    if constexpr (kFast) p2 = hn::Mul(root, root);  // so that the error of the root cancels
+    FresnelTerms<kWide>(d, a, m, hn::Add(c2, g2), root, s2);
     q = hn::Mul(a, m);
   }
 
@@ -249,26 +324,25 @@ HWY_INLINE void RoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& value, Ve
     masking = MaskingDenominator<kG>(iz, mu_i, zo, mu_o);
   }
 
-  // Everything is over (scaled q density)^2 masking, with k^2 (M^2 + N^2)/2 H.H^2 <= q^2 (reached under total
+  // Everything is over (scaled q density)^2 masking, with k^2 (p^2 + s^4) H.H^2 <= q^2 (reached under total
   // internal reflection) and 2 p A (M^2 + eta^2 H.H^2) as the Fresnel factors F and T times q^2.
   constexpr double kScale = kWide ? 1 : 0x1p15;
   const Vec<D> dq = hn::Mul(hn::Mul(density, Const(d, kScale)), q);
   const Vec<D> denominator = hn::Mul(hn::Mul(dq, dq), masking);
-  const Vec<D> h4 = hn::Mul(h2, h2);
   Vec<D> fresnel = one;  // F or T (both lobes: that of the lane), times q^2
   if constexpr (kNeedsFresnel) {
-    const Vec<D> m2 = hn::Mul(m, m);
     Vec<D> f = one, t = one;
     if constexpr (kReflects) {
-      const Vec<D> k2 = hn::Mul(hn::Mul(k, k), Const(d, 0.5));
-      f = hn::Min(hn::Mul(q, q), hn::Mul(hn::Mul(k2, h4), hn::MulAdd(n, n, m2)));
+      const Vec<D> k2 = hn::Mul(k, k);
+      f = hn::Min(hn::Mul(q, q), hn::Mul(hn::Mul(k2, norm2), hn::MulAdd(s2, s2, p2)));
     }
     if constexpr (kTransmits) {
-      t = hn::Mul(hn::Mul(hn::Add(root, root), a), hn::MulAdd(eta2, h4, m2));
+      t = hn::Mul(hn::Mul(hn::Add(root, root), a), hn::MulAdd(m, m, hn::Mul(eta2, norm2)));
     }
     fresnel = kReflects && kTransmits ? hn::IfThenElse(transmits, t, f) : kReflects ? f : t;
   }
-  const Vec<D> ws = hn::Mul(w, Const(d, kScale * kScale));
+  constexpr double kFactor = kMaskingFactor<kG> * (kTransmits ? 1 : 0.25);  // of the value over K
+  const Vec<D> ws = hn::Mul(w, Const(d, kScale * kScale / kPi * (kValue && !kPdf ? kFactor : 1)));
   if constexpr (!kWide) {
     // Factors whose products could leave the range. F q^2 also bounds H.H (for q <= 2^11 H.H^2), so that
     // rounding has not changed the sign of i.H or o.H, which are H.H/2 for unit vectors.
@@ -283,7 +357,6 @@ HWY_INLINE void RoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& value, Ve
 
   if constexpr (kValue) {
     // f_r |o.n| = F |H|^4 K/4 G/|i.n|, f_t |o.n| = eta^2 |i.H| |o.H| T K G/|i.n|.
-    constexpr double kFactor = kMaskingFactor<kG> / kPi * (kTransmits ? 1 : 0.25);
     Vec<D> reflection = one, transmission = one;
     if constexpr (kReflects) reflection = kTransmits ? hn::Mul(h4, Const(d, 0.25)) : h4;
     if constexpr (kTransmits) {
@@ -293,14 +366,14 @@ HWY_INLINE void RoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& value, Ve
     const Vec<D> x = kReflects && kTransmits ? hn::IfThenElse(transmits, transmission, reflection)
                      : kReflects             ? reflection
                                              : transmission;
-    const Vec<D> numerator = hn::Mul(hn::Mul(hn::Mul(ws, Const(d, kFactor)), x), fresnel);
+    const Vec<D> numerator = hn::Mul(hn::Mul(kPdf ? hn::Mul(ws, Const(d, kFactor)) : ws, x), fresnel);
     value = hn::Mul(kPdf ? hn::Mul(numerator, r) : Div<A>(d, numerator, denominator), zo);
     if constexpr (Dist::kHasExponent) value = ExpTimes<A>(d, log_high, log_low, value);
     value = ZeroIf(invalid, value);
   }
   if constexpr (kPdf) {
     // K Hz |o.H| (eta^2 and F or T where they apply).
-    Vec<D> x = hn::Mul(ws, Const(d, 1 / kPi));
+    Vec<D> x = ws;
     if constexpr (kLobes == Lobes::kTransmission) {
       x = hn::Mul(x, eta2);
     } else if constexpr (kLobes == Lobes::kBoth) {
@@ -367,11 +440,12 @@ HWY_INLINE void SampleRoughDielectric(D d, hn::Mask<D> radiance, Vec<D>& ox, Vec
   InDouble2<GSquaredOp>(d, g2, unused, c, eta);
   g2 = hn::IfThenElse(hn::Lt(g2, zero), zero, g2);
   const Vec<D> g = Sqrt<A>(d, g2), root = hn::Mul(c, g);
-  Vec<D> a, m, n;
-  FresnelTerms<true>(d, a, m, n, c, g2, root, hn::NegMulAdd(c, c, one));
+  const Vec<D> s2 = hn::NegMulAdd(c, c, one);
+  Vec<D> a, m;
+  FresnelTerms<true>(d, a, m, hn::MulAdd(c, c, g2), root, s2);
   const Vec<D> q = hn::Mul(a, m), r = Reciprocal<A>(d, q), kr = hn::Mul(k, r), m2 = hn::Mul(m, m);
-  const Vec<D> km = hn::Mul(kr, m), kn = hn::Mul(kr, n);
-  const Vec<D> reflectance = hn::Min(one, hn::Mul(Const(d, 0.5), hn::MulAdd(km, km, hn::Mul(kn, kn))));
+  const Vec<D> kp = hn::Mul(kr, root), ks = hn::Mul(kr, s2);
+  const Vec<D> reflectance = hn::Min(one, hn::MulAdd(kp, kp, hn::Mul(ks, ks)));
   const Vec<D> transmittance =
       hn::Mul(hn::Mul(hn::Mul(hn::Add(root, root), a), hn::MulAdd(eta, eta, m2)), hn::Mul(r, r));
 
