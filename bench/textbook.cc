@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <utility>
 
 #include "microlane/kernel_list.h"
 
@@ -73,6 +75,7 @@ inline float RationalG1(float a) {
 }
 
 struct Ggx {
+  static constexpr Normals kNormals = Normals::kGgx;
   static constexpr std::size_t kParameters = 2;
   float alpha_x, alpha_y;
 
@@ -124,6 +127,7 @@ struct GgxIsotropic {
 };
 
 struct Beckmann {
+  static constexpr Normals kNormals = Normals::kBeckmann;
   static constexpr std::size_t kParameters = 2;
   float alpha_x, alpha_y;
 
@@ -177,6 +181,7 @@ struct BeckmannIsotropic {
 };
 
 struct Phong {
+  static constexpr Normals kNormals = Normals::kPhong;
   static constexpr std::size_t kParameters = 1;
   float exponent;
 
@@ -294,7 +299,7 @@ struct RoughDielectric {
     return (1 - F) * pdf_wm * Sqr(eta) * AbsDot(wo, wm) / Sqr(Dot(wi, wm) + eta * Dot(wo, wm));
   }
 
-  Sample SampleDirection(const Vec3& wi, float u1, float u2, float u3) const {
+  Sample SampleDirection(const Vec3& wi, float u1, float u2, float u3, int lobes) const {
     constexpr Sample kNone = {{0, 0, 0}, 0, 0, 0};
     if (CosTheta(wi) == 0) return kNone;
     const Vec3 upper = distribution.SampleNormal(u1, u2);
@@ -303,19 +308,20 @@ struct RoughDielectric {
     if (!(cos_i > 0)) return kNone;
     const float F = FrDielectric(cos_i, eta);
     const float pdf_wm = distribution.D(upper) * AbsCosTheta(upper);
+    const float pr = lobes == kBoth ? F : 1, pt = lobes == kBoth ? 1 - F : 1;
     Sample sample;
-    if (u3 < F) {
+    if (lobes == kBoth ? u3 < F : lobes == kReflection) {
       sample.wo = Reflect(wi, wm);
       if (!SameHemisphere(wi, sample.wo)) return kNone;
       sample.lobe = kReflection;
-      sample.pdf = F * pdf_wm / (4 * AbsDot(sample.wo, wm));
+      sample.pdf = pr * pdf_wm / (4 * AbsDot(sample.wo, wm));
     } else {
       if (!Refract(wi, wm, eta, &sample.wo) || !(CosTheta(wi) * CosTheta(sample.wo) < 0)) return kNone;
       sample.lobe = kTransmission;
-      sample.pdf =
-          (1 - F) * pdf_wm * Sqr(eta) * AbsDot(sample.wo, wm) / Sqr(cos_i + eta * Dot(sample.wo, wm));
+      sample.pdf = pt * pdf_wm * Sqr(eta) * AbsDot(sample.wo, wm) / Sqr(cos_i + eta * Dot(sample.wo, wm));
     }
     sample.weight = cos_i * G(wi, sample.wo) / (AbsCosTheta(wi) * AbsCosTheta(wm));
+    if (lobes != kBoth) sample.weight *= sample.lobe == kReflection ? F : 1 - F;
     if (sample.lobe == kTransmission && transport == Transport::kImportance) sample.weight /= Sqr(eta);
     return sample;
   }
@@ -361,32 +367,27 @@ void MaskingG1Rational(const float* in, float* out, Transport) {
   out[0] = Dot(w, Load(in + 3)) * CosTheta(w) <= 0 ? 0 : RationalG1(Distribution::Make(in + 6).A(w));
 }
 
-template <class Distribution, bool kSeparable>
-RoughDielectric<Distribution, kSeparable> MakeBsdf(const float* in, Transport transport) {
-  return {Distribution::Make(in + 6), in[6 + Distribution::kParameters], transport};
-}
-template <class Distribution, bool kSeparable, int kLobes>
-void Eval(const float* in, float* out, Transport transport) {
-  out[0] = MakeBsdf<Distribution, kSeparable>(in, transport).Eval(Load(in), Load(in + 3), kLobes);
-}
-template <class Distribution, int kLobes>
-void Pdf(const float* in, float* out, Transport transport) {
-  out[0] = MakeBsdf<Distribution, false>(in, transport).Pdf(Load(in), Load(in + 3), kLobes);
-}
-template <class Distribution, bool kSeparable>
-void EvalPdf(const float* in, float* out, Transport transport) {
-  const auto bsdf = MakeBsdf<Distribution, kSeparable>(in, transport);
-  out[0] = bsdf.Eval(Load(in), Load(in + 3), kBoth);
-  out[1] = bsdf.Pdf(Load(in), Load(in + 3), kBoth);
-}
-template <class Distribution, bool kSeparable>
-void SampleDirection(const float* in, float* out, Transport transport) {
-  const auto sample =
-      MakeBsdf<Distribution, kSeparable>(in, transport).SampleDirection(Load(in), in[3], in[4], in[5]);
-  Store(sample.wo, out);
-  out[3] = sample.weight;
-  out[4] = sample.pdf;
-  out[5] = static_cast<float>(sample.lobe);
+// The rough dielectric by its place in kDielectricQuantities.
+template <class Distribution, std::size_t kQuantity>
+void Dielectric(const float* in, float* out, Transport transport) {
+  constexpr DielectricQuantity row = kDielectricQuantities[kQuantity];
+  constexpr int lobes = (row.reflects ? kReflection : 0) | (row.transmits ? kTransmission : 0);
+  constexpr bool one_lobe_sampled = row.what == DielectricQuantity::kSample && !row.HasBothLobes();
+  const float* const parameters = in + (one_lobe_sampled ? 5 : 6);
+  const RoughDielectric<Distribution, row.separable> bsdf{Distribution::Make(parameters),
+                                                          parameters[Distribution::kParameters], transport};
+  if constexpr (row.what == DielectricQuantity::kSample) {
+    const auto sample = bsdf.SampleDirection(Load(in), in[3], in[4], one_lobe_sampled ? 0 : in[5], lobes);
+    Store(sample.wo, out);
+    out[3] = sample.weight;
+    out[4] = sample.pdf;
+    out[5] = static_cast<float>(sample.lobe);
+  } else {
+    if constexpr (row.HasValue()) out[0] = bsdf.Eval(Load(in), Load(in + 3), lobes);
+    if constexpr (row.what != DielectricQuantity::kEval) {
+      out[row.HasValue() ? 1 : 0] = bsdf.Pdf(Load(in), Load(in + 3), lobes);
+    }
+  }
 }
 
 void Exp(const float* in, float* out, Transport) { out[0] = std::exp(in[0]); }
@@ -515,41 +516,22 @@ constexpr std::array kEntries = {
     Make<KernelIndex("half_vector.refraction_jacobian_cos"), RefractionJacobianCos>(),
     Make<KernelIndex("reflect"), MirrorDirection>(),
     Make<KernelIndex("refract"), RefractedDirection>(),
-
-    Make<KernelIndex("rough_dielectric.eval"), Eval<Ggx, false, kBoth>>(),
-    Make<KernelIndex("rough_dielectric.eval_reflection"), Eval<Ggx, false, kReflection>>(),
-    Make<KernelIndex("rough_dielectric.eval_transmission"), Eval<Ggx, false, kTransmission>>(),
-    Make<KernelIndex("rough_dielectric.eval_separable"), Eval<Ggx, true, kBoth>>(),
-    Make<KernelIndex("rough_dielectric.eval_reflection_separable"), Eval<Ggx, true, kReflection>>(),
-    Make<KernelIndex("rough_dielectric.eval_transmission_separable"), Eval<Ggx, true, kTransmission>>(),
-    Make<KernelIndex("rough_dielectric.pdf"), Pdf<Ggx, kBoth>>(),
-    Make<KernelIndex("rough_dielectric.pdf_reflection"), Pdf<Ggx, kReflection>>(),
-    Make<KernelIndex("rough_dielectric.pdf_transmission"), Pdf<Ggx, kTransmission>>(),
-    Make<KernelIndex("rough_dielectric.eval_pdf"), EvalPdf<Ggx, false>>(),
-    Make<KernelIndex("rough_dielectric.eval_pdf_separable"), EvalPdf<Ggx, true>>(),
-    Make<KernelIndex("rough_dielectric.sample"), SampleDirection<Ggx, false>>(),
-    Make<KernelIndex("rough_dielectric.sample_separable"), SampleDirection<Ggx, true>>(),
-
-    Make<KernelIndex("rough_dielectric_beckmann.eval"), Eval<Beckmann, false, kBoth>>(),
-    Make<KernelIndex("rough_dielectric_beckmann.eval_separable"), Eval<Beckmann, true, kBoth>>(),
-    Make<KernelIndex("rough_dielectric_beckmann.eval_reflection"), Eval<Beckmann, false, kReflection>>(),
-    Make<KernelIndex("rough_dielectric_beckmann.eval_transmission"), Eval<Beckmann, false, kTransmission>>(),
-    Make<KernelIndex("rough_dielectric_beckmann.pdf"), Pdf<Beckmann, kBoth>>(),
-    Make<KernelIndex("rough_dielectric_beckmann.eval_pdf"), EvalPdf<Beckmann, false>>(),
-    Make<KernelIndex("rough_dielectric_beckmann.sample"), SampleDirection<Beckmann, false>>(),
-
-    Make<KernelIndex("rough_dielectric_phong.eval"), Eval<Phong, false, kBoth>>(),
-    Make<KernelIndex("rough_dielectric_phong.eval_separable"), Eval<Phong, true, kBoth>>(),
-    Make<KernelIndex("rough_dielectric_phong.eval_reflection"), Eval<Phong, false, kReflection>>(),
-    Make<KernelIndex("rough_dielectric_phong.eval_transmission"), Eval<Phong, false, kTransmission>>(),
-    Make<KernelIndex("rough_dielectric_phong.pdf"), Pdf<Phong, kBoth>>(),
-    Make<KernelIndex("rough_dielectric_phong.eval_pdf"), EvalPdf<Phong, false>>(),
-    Make<KernelIndex("rough_dielectric_phong.sample"), SampleDirection<Phong, false>>(),
 };
+
+template <class Distribution, std::size_t... kQuantity>
+constexpr void AddDielectrics(std::array<Batch, kNumKernels>& table, std::index_sequence<kQuantity...>) {
+  ((table[DielectricKernel(Distribution::kNormals, kQuantity)] =
+        Loop<DielectricKernel(Distribution::kNormals, kQuantity), Dielectric<Distribution, kQuantity>>),
+   ...);
+}
 
 constexpr std::array<Batch, kNumKernels> Resolve() {
   std::array<Batch, kNumKernels> table{};
   for (const Entry& entry : kEntries) table[entry.kernel] = entry.batch;
+  constexpr auto quantities = std::make_index_sequence<kNumDielectricQuantities>();
+  AddDielectrics<Ggx>(table, quantities);
+  AddDielectrics<Beckmann>(table, quantities);
+  AddDielectrics<Phong>(table, quantities);
   return table;
 }
 

@@ -11,6 +11,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "microlane/kernels.h"
@@ -36,8 +37,14 @@ struct Arguments {
   Parameter<T> Value(int k) const { return uniform[k] ? Parameter<T>(in[k][0]) : Parameter<T>(in[k].data()); }
   T* Out(int k) { return out[k].data(); }
   MutableDirections<T> OutDirection(int k) { return {Out(k), Out(k + 1), Out(k + 2)}; }
-  DielectricParameters<T> Dielectric(int k) const { return {Value(k), Value(k + 1), Value(k + 2)}; }
-  PhongDielectricParameters<T> PhongDielectric(int k) const { return {Value(k), Value(k + 1)}; }
+  template <Normals kNormals>
+  DielectricParametersOf<kNormals, T> Surface(int k) const {
+    if constexpr (kNormals == Normals::kPhong) {
+      return {Value(k), Value(k + 1)};
+    } else {
+      return {Value(k), Value(k + 1), Value(k + 2)};
+    }
+  }
   DielectricSamples<T> Samples() { return {OutDirection(0), Out(3), Out(4), Out(5)}; }
 };
 
@@ -47,17 +54,56 @@ struct Row {
   void (*run)(Arguments<T>& a);
 };
 
-constexpr JointMasking kCorrelated = JointMasking::kHeightCorrelated, kSeparable = JointMasking::kSeparable;
+// The typed function of a quantity of the rough dielectric.
+template <class T, Normals kNormals, std::size_t kQuantity>
+void RunDielectric(Arguments<T>& a) {
+  using Calls = RoughDielectricCalls<kNormals>;
+  constexpr DielectricQuantity row = kDielectricQuantities[kQuantity];
+  constexpr JointMasking masking = row.separable ? JointMasking::kSeparable : JointMasking::kHeightCorrelated;
+  constexpr bool both = row.HasBothLobes(), reflects = row.reflects;
+  const Directions<T> wi = a.Direction(0);
+  if constexpr (row.what == DielectricQuantity::kSample) {
+    const auto surface = a.template Surface<kNormals>(both ? 6 : 5);
+    const T *const u1 = a.Lanes(3), *const u2 = a.Lanes(4);
+    if constexpr (both) {
+      Calls::Sample(a.n, wi, u1, u2, a.Lanes(5), surface, a.Samples(), a.accuracy, a.transport, masking);
+    } else if constexpr (reflects) {
+      Calls::SampleReflection(a.n, wi, u1, u2, surface, a.Samples(), a.accuracy, masking);
+    } else {
+      Calls::SampleTransmission(a.n, wi, u1, u2, surface, a.Samples(), a.accuracy, a.transport, masking);
+    }
+  } else {
+    const auto surface = a.template Surface<kNormals>(6);
+    const Directions<T> wo = a.Direction(3);
+    if constexpr (row.what == DielectricQuantity::kEvalPdf) {
+      Calls::EvalPdf(a.n, wi, wo, surface, a.Out(0), a.Out(1), a.accuracy, a.transport, masking);
+    } else if constexpr (row.what == DielectricQuantity::kPdf) {
+      if constexpr (both) Calls::Pdf(a.n, wi, wo, surface, a.Out(0), a.accuracy);
+      if constexpr (!both && reflects) Calls::PdfReflection(a.n, wi, wo, surface, a.Out(0), a.accuracy);
+      if constexpr (!both && !reflects) Calls::PdfTransmission(a.n, wi, wo, surface, a.Out(0), a.accuracy);
+    } else if constexpr (both) {
+      Calls::Eval(a.n, wi, wo, surface, a.Out(0), a.accuracy, a.transport, masking);
+    } else if constexpr (reflects) {
+      Calls::EvalReflection(a.n, wi, wo, surface, a.Out(0), a.accuracy, masking);
+    } else {
+      Calls::EvalTransmission(a.n, wi, wo, surface, a.Out(0), a.accuracy, a.transport, masking);
+    }
+  }
+}
+
+template <class T, Normals kNormals, std::size_t... kQuantity>
+void AppendDielectrics(std::vector<Row<T>>& rows, std::index_sequence<kQuantity...>) {
+  (rows.push_back(
+       {kKernels[DielectricKernel(kNormals, kQuantity)].id, RunDielectric<T, kNormals, kQuantity>}),
+   ...);
+}
 
 // Every typed function.
 template <class T>
 const std::vector<Row<T>>& Rows() {
   using A = Arguments<T>;
-  namespace ggx_dielectric = rough_dielectric;
-  namespace beckmann_dielectric = rough_dielectric_beckmann;
-  namespace phong_dielectric = rough_dielectric_phong;
   // clang-format off
-  static const std::vector<Row<T>> rows = {
+  static const std::vector<Row<T>> components = {
       {"ggx.D", [](A& a) { ggx::D(a.n, a.Direction(0), a.Value(3), a.Value(4), a.Out(0), a.accuracy); }},
       {"ggx.D_isotropic", [](A& a) { ggx::D(a.n, a.Direction(0), a.Value(3), a.Out(0), a.accuracy); }},
       {"ggx.Lambda", [](A& a) { ggx::Lambda(a.n, a.Direction(0), a.Value(3), a.Value(4), a.Out(0), a.accuracy); }},
@@ -94,38 +140,16 @@ const std::vector<Row<T>>& Rows() {
       {"half_vector.refraction_jacobian_cos", [](A& a) { half_vector::RefractionJacobian(a.n, a.Lanes(0), a.Lanes(1), a.Value(2), a.Out(0), a.accuracy); }},
       {"reflect", [](A& a) { Reflect(a.n, a.Direction(0), a.Direction(3), a.OutDirection(0), a.accuracy); }},
       {"refract", [](A& a) { Refract(a.n, a.Direction(0), a.Direction(3), a.Value(6), a.OutDirection(0), a.accuracy); }},
-
-      {"rough_dielectric.eval", [](A& a) { ggx_dielectric::Eval(a.n, a.Direction(0), a.Direction(3), a.Dielectric(6), a.Out(0), a.accuracy, a.transport, kCorrelated); }},
-      {"rough_dielectric.eval_separable", [](A& a) { ggx_dielectric::Eval(a.n, a.Direction(0), a.Direction(3), a.Dielectric(6), a.Out(0), a.accuracy, a.transport, kSeparable); }},
-      {"rough_dielectric.eval_reflection", [](A& a) { ggx_dielectric::EvalReflection(a.n, a.Direction(0), a.Direction(3), a.Dielectric(6), a.Out(0), a.accuracy, kCorrelated); }},
-      {"rough_dielectric.eval_reflection_separable", [](A& a) { ggx_dielectric::EvalReflection(a.n, a.Direction(0), a.Direction(3), a.Dielectric(6), a.Out(0), a.accuracy, kSeparable); }},
-      {"rough_dielectric.eval_transmission", [](A& a) { ggx_dielectric::EvalTransmission(a.n, a.Direction(0), a.Direction(3), a.Dielectric(6), a.Out(0), a.accuracy, a.transport, kCorrelated); }},
-      {"rough_dielectric.eval_transmission_separable", [](A& a) { ggx_dielectric::EvalTransmission(a.n, a.Direction(0), a.Direction(3), a.Dielectric(6), a.Out(0), a.accuracy, a.transport, kSeparable); }},
-      {"rough_dielectric.pdf", [](A& a) { ggx_dielectric::Pdf(a.n, a.Direction(0), a.Direction(3), a.Dielectric(6), a.Out(0), a.accuracy); }},
-      {"rough_dielectric.pdf_reflection", [](A& a) { ggx_dielectric::PdfReflection(a.n, a.Direction(0), a.Direction(3), a.Dielectric(6), a.Out(0), a.accuracy); }},
-      {"rough_dielectric.pdf_transmission", [](A& a) { ggx_dielectric::PdfTransmission(a.n, a.Direction(0), a.Direction(3), a.Dielectric(6), a.Out(0), a.accuracy); }},
-      {"rough_dielectric.eval_pdf", [](A& a) { ggx_dielectric::EvalPdf(a.n, a.Direction(0), a.Direction(3), a.Dielectric(6), a.Out(0), a.Out(1), a.accuracy, a.transport, kCorrelated); }},
-      {"rough_dielectric.eval_pdf_separable", [](A& a) { ggx_dielectric::EvalPdf(a.n, a.Direction(0), a.Direction(3), a.Dielectric(6), a.Out(0), a.Out(1), a.accuracy, a.transport, kSeparable); }},
-      {"rough_dielectric.sample", [](A& a) { ggx_dielectric::Sample(a.n, a.Direction(0), a.Lanes(3), a.Lanes(4), a.Lanes(5), a.Dielectric(6), a.Samples(), a.accuracy, a.transport, kCorrelated); }},
-      {"rough_dielectric.sample_separable", [](A& a) { ggx_dielectric::Sample(a.n, a.Direction(0), a.Lanes(3), a.Lanes(4), a.Lanes(5), a.Dielectric(6), a.Samples(), a.accuracy, a.transport, kSeparable); }},
-
-      {"rough_dielectric_beckmann.eval", [](A& a) { beckmann_dielectric::Eval(a.n, a.Direction(0), a.Direction(3), a.Dielectric(6), a.Out(0), a.accuracy, a.transport, kCorrelated); }},
-      {"rough_dielectric_beckmann.eval_separable", [](A& a) { beckmann_dielectric::Eval(a.n, a.Direction(0), a.Direction(3), a.Dielectric(6), a.Out(0), a.accuracy, a.transport, kSeparable); }},
-      {"rough_dielectric_beckmann.eval_reflection", [](A& a) { beckmann_dielectric::EvalReflection(a.n, a.Direction(0), a.Direction(3), a.Dielectric(6), a.Out(0), a.accuracy); }},
-      {"rough_dielectric_beckmann.eval_transmission", [](A& a) { beckmann_dielectric::EvalTransmission(a.n, a.Direction(0), a.Direction(3), a.Dielectric(6), a.Out(0), a.accuracy, a.transport); }},
-      {"rough_dielectric_beckmann.pdf", [](A& a) { beckmann_dielectric::Pdf(a.n, a.Direction(0), a.Direction(3), a.Dielectric(6), a.Out(0), a.accuracy); }},
-      {"rough_dielectric_beckmann.eval_pdf", [](A& a) { beckmann_dielectric::EvalPdf(a.n, a.Direction(0), a.Direction(3), a.Dielectric(6), a.Out(0), a.Out(1), a.accuracy, a.transport); }},
-      {"rough_dielectric_beckmann.sample", [](A& a) { beckmann_dielectric::Sample(a.n, a.Direction(0), a.Lanes(3), a.Lanes(4), a.Lanes(5), a.Dielectric(6), a.Samples(), a.accuracy, a.transport); }},
-
-      {"rough_dielectric_phong.eval", [](A& a) { phong_dielectric::Eval(a.n, a.Direction(0), a.Direction(3), a.PhongDielectric(6), a.Out(0), a.accuracy, a.transport, kCorrelated); }},
-      {"rough_dielectric_phong.eval_separable", [](A& a) { phong_dielectric::Eval(a.n, a.Direction(0), a.Direction(3), a.PhongDielectric(6), a.Out(0), a.accuracy, a.transport, kSeparable); }},
-      {"rough_dielectric_phong.eval_reflection", [](A& a) { phong_dielectric::EvalReflection(a.n, a.Direction(0), a.Direction(3), a.PhongDielectric(6), a.Out(0), a.accuracy); }},
-      {"rough_dielectric_phong.eval_transmission", [](A& a) { phong_dielectric::EvalTransmission(a.n, a.Direction(0), a.Direction(3), a.PhongDielectric(6), a.Out(0), a.accuracy, a.transport); }},
-      {"rough_dielectric_phong.pdf", [](A& a) { phong_dielectric::Pdf(a.n, a.Direction(0), a.Direction(3), a.PhongDielectric(6), a.Out(0), a.accuracy); }},
-      {"rough_dielectric_phong.eval_pdf", [](A& a) { phong_dielectric::EvalPdf(a.n, a.Direction(0), a.Direction(3), a.PhongDielectric(6), a.Out(0), a.Out(1), a.accuracy, a.transport); }},
-      {"rough_dielectric_phong.sample", [](A& a) { phong_dielectric::Sample(a.n, a.Direction(0), a.Lanes(3), a.Lanes(4), a.Lanes(5), a.PhongDielectric(6), a.Samples(), a.accuracy, a.transport); }},
   };
   // clang-format on
+  static const std::vector<Row<T>> rows = [] {
+    std::vector<Row<T>> all = components;
+    constexpr auto quantities = std::make_index_sequence<kNumDielectricQuantities>();
+    AppendDielectrics<T, Normals::kGgx>(all, quantities);
+    AppendDielectrics<T, Normals::kBeckmann>(all, quantities);
+    AppendDielectrics<T, Normals::kPhong>(all, quantities);
+    return all;
+  }();
   return rows;
 }
 

@@ -358,12 +358,14 @@ TEST(Extremes, PdfZero) {
   std::size_t tried = 0;
   for (const std::string_view model : kModels) {
     for (const AccuracyOptions& options : AllAccuraciesOnAllTargets()) {
-      const PointOf base(Id(model, "sample"));
-      for (const SampledDirection& sample : Samples(base, options)) {
-        const bool none = sample.out[5] == 0;
-        EXPECT_EQ(sample.out[4] > 0, !none) << AccuracyName(options) << Describe(base.kernel(), sample.in);
-        EXPECT_EQ(sample.out[3] > 0, !none) << AccuracyName(options) << Describe(base.kernel(), sample.in);
-        ++tried;
+      for (const std::string_view sampler : {"sample", "sample_reflection", "sample_transmission"}) {
+        const PointOf base(Id(model, sampler));
+        for (const SampledDirection& sample : Samples(base, options)) {
+          const bool none = sample.out[5] == 0;
+          EXPECT_EQ(sample.out[4] > 0, !none) << AccuracyName(options) << Describe(base.kernel(), sample.in);
+          EXPECT_EQ(sample.out[3] > 0, !none) << AccuracyName(options) << Describe(base.kernel(), sample.in);
+          ++tried;
+        }
       }
     }
   }
@@ -376,12 +378,19 @@ TEST(Extremes, SampleVsEval) {
   std::size_t tried = 0;
   double largest = 0;
   for (const std::string_view model : kModels) {
-    for (const bool separable : {false, true}) {
-      const std::string suffix = separable ? "_separable" : "";
-      const std::size_t sampler = KernelIndex(Id(model, "sample" + suffix));
-      const std::size_t eval = KernelIndex(Id(model, "eval" + suffix)), pdf = KernelIndex(Id(model, "pdf"));
-      if (sampler == kNumKernels || eval == kNumKernels) continue;
-      const Names inputs = Split(kKernels[sampler].inputs);
+    for (const DielectricQuantity& quantity : kDielectricQuantities) {
+      if (quantity.what != DielectricQuantity::kSample) continue;
+      const auto same = [&](DielectricQuantity::What what, bool separable) {
+        return KernelIndex(
+            Id(model, kDielectricQuantities[FindDielectricQuantity(what, quantity.reflects,
+                                                                   quantity.transmits, separable)]
+                          .name));
+      };
+      const std::size_t sampler = same(DielectricQuantity::kSample, quantity.separable);
+      const std::size_t eval = same(DielectricQuantity::kEval, quantity.separable);
+      const std::size_t pdf = same(DielectricQuantity::kPdf, false);
+      const std::size_t parameters = Split(kKernels[sampler].inputs).per_lane;
+      const std::size_t num_inputs = Split(kKernels[sampler].inputs).count;
       for (const Transport transport : {Transport::kRadiance, Transport::kImportance}) {
         std::vector<Point> points, pairs;
         for (const SampledDirection& sample : Samples(PointOf(kKernels[sampler].id), DoubleLanes())) {
@@ -389,15 +398,16 @@ TEST(Extremes, SampleVsEval) {
         }
         const std::vector<Outputs> samples = Compute(sampler, DoubleLanes(), points, transport);
         for (std::size_t j = 0; j < points.size(); ++j) {
-          pairs.push_back(points[j]);
-          for (int k = 0; k < 3; ++k) pairs[j][3 + k] = samples[j][k];
+          Point& pair = pairs.emplace_back(points[j]);
+          for (int k = 0; k < 3; ++k) pair[3 + k] = samples[j][k];
+          for (std::size_t k = parameters; k < num_inputs; ++k) pair[6 + k - parameters] = points[j][k];
         }
         const std::vector<Outputs> values = Compute(eval, DoubleLanes(), pairs, transport);
         const std::vector<Outputs> densities = Compute(pdf, DoubleLanes(), pairs);
         for (std::size_t j = 0; j < points.size(); ++j) {
           if (samples[j][5] == 0) continue;
-          const double eta = points[j][inputs.count - 1];
-          const double alpha = model == kModels[2] ? std::sqrt(2 / (points[j][6] + 2)) : points[j][6];
+          const double eta = points[j][num_inputs - 1];
+          const double p = points[j][parameters], alpha = model == kModels[2] ? std::sqrt(2 / (p + 2)) : p;
           // The half vector of transmission is determined to 1 / |eta - 1| roundings of wo.
           const double h = samples[j][5] == 2 ? 1 / std::abs(eta - 1) : 1;
           const double tolerance = 1e-13 * (1 + h) * (1 + h) / alpha * (1 + 1 / std::abs(samples[j][2]));
@@ -448,13 +458,11 @@ TEST(Extremes, ChoiceProb) {
               if (F * (1 + tolerance) < 1) {
                 EXPECT_NE(ComputeOne(point.Set("u3", F * (1 + tolerance)), options)[5], 1) << where;
               }
-              if (model == kModels[0]) {
-                PointOf reflection("rough_dielectric.pdf_reflection");
-                reflection.SetAlpha(0.2).SetDirection("wi", sine, 0, cosine);
-                reflection.SetDirection("wo", mirrored[0], mirrored[1], mirrored[2]).Set("eta", eta);
-                const double own = ComputeOne(reflection, options)[0];
-                EXPECT_NEAR(mirrored[4] / own, F, (fast ? 0.01 : 1e-3) * F) << where;
-              }
+              PointOf reflection(Id(model, "pdf_reflection"));
+              reflection.SetAlpha(0.2).SetDirection("wi", sine, 0, cosine);
+              reflection.SetDirection("wo", mirrored[0], mirrored[1], mirrored[2]).Set("eta", eta);
+              const double own = ComputeOne(reflection, options)[0];
+              EXPECT_NEAR(mirrored[4] / own, F, (fast ? 0.01 : 1e-3) * F) << where;
               tried += 3;
             }
           }

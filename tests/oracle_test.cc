@@ -352,29 +352,47 @@ Result EvaluateModel(const Model& model, const char* kernel, const Vec& a, const
   return EvaluateId((model.id + "." + kernel).c_str(), inputs, transport, lobe_hint);
 }
 
+// Of one lobe, a sampler takes no u3.
+Result EvaluateSample(const Model& model, const char* kernel, const Vec& wi, const Vec& u,
+                      Transport transport = Transport::kRadiance) {
+  const std::string id = model.id + "." + kernel;
+  std::vector<Real> inputs{wi.x, wi.y, wi.z, u.x, u.y, u.z};
+  if (Split(kKernels[KernelIndex(id)].inputs).per_lane == 5) inputs.pop_back();
+  inputs.insert(inputs.end(), model.parameters.begin(), model.parameters.end());
+  return EvaluateId(id.c_str(), inputs, transport);
+}
+
 TEST(OracleRoughDielectric, WeightTimesPdfIsTheValueAtTheSample) {
-  int lobes[3] = {0, 0, 0};
-  for (const Real& eta : {Real("1.5"), Real("0.7")}) {
-    for (const Model& model : Models(eta)) {
-      for (const Vec& wi : {kUnits[0], kUnits[1], -kUnits[2], kUnits[4]}) {
-        for (const Transport transport : {Transport::kRadiance, Transport::kImportance}) {
-          for (const double u3 : {0.0, 0.9}) {
-            const Vec u{0.3, 0.45, u3};
-            const Result s = EvaluateModel(model, "sample", wi, u, transport);
-            ++lobes[static_cast<int>(s.exact[5])];
-            if (s.exact[5] == 0) continue;
-            const Vec wo{s.exact[0], s.exact[1], s.exact[2]};
-            ExpectRelative(Dot(wo, wo), 1, 1e-110);
-            const Result value = EvaluateModel(model, "eval_pdf", wi, wo, transport);
-            ExpectRelative(s.exact[3] * s.exact[4], value.exact[0], 1e-60, model.id);
-            ExpectRelative(s.exact[4], value.exact[1], 1e-60, model.id);
+  constexpr const char* kKernelsOf[][3] = {{"sample", "eval", "pdf"},
+                                           {"sample_separable", "eval_separable", "pdf"},
+                                           {"sample_reflection", "eval_reflection", "pdf_reflection"},
+                                           {"sample_transmission", "eval_transmission", "pdf_transmission"}};
+  for (const auto& [sample, eval, pdf] : kKernelsOf) {
+    int lobes[3] = {0, 0, 0};
+    const bool chooses = std::string_view(pdf) == "pdf";
+    for (const Real& eta : {Real("1.5"), Real("0.7")}) {
+      for (const Model& model : Models(eta)) {
+        for (const Vec& wi : {kUnits[0], kUnits[1], -kUnits[2], kUnits[4]}) {
+          for (const Transport transport : {Transport::kRadiance, Transport::kImportance}) {
+            for (const double u3 : {0.0, 0.9}) {
+              const Result s =
+                  EvaluateSample(model, sample, wi, {0.3, chooses ? 0.45 : 0.5 * u3, u3}, transport);
+              ++lobes[static_cast<int>(s.exact[5])];
+              if (s.exact[5] == 0) continue;
+              const Vec wo{s.exact[0], s.exact[1], s.exact[2]};
+              ExpectRelative(Dot(wo, wo), 1, 1e-110);
+              ExpectRelative(s.exact[3] * s.exact[4], EvaluateModel(model, eval, wi, wo, transport).exact[0],
+                             1e-60, model.id + sample);
+              ExpectRelative(s.exact[4], EvaluateModel(model, pdf, wi, wo).exact[0], 1e-60,
+                             model.id + sample);
+            }
           }
         }
       }
     }
+    EXPECT_EQ(lobes[kReflection] > 0, chooses || std::string_view(pdf) == "pdf_reflection") << sample;
+    EXPECT_EQ(lobes[kTransmission] > 0, chooses || std::string_view(pdf) == "pdf_transmission") << sample;
   }
-  EXPECT_GT(lobes[kReflection], 0);
-  EXPECT_GT(lobes[kTransmission], 0);
 }
 
 // Walter 2007, Eq. 38: the density of the scattered direction is that of the map from random numbers, times

@@ -933,7 +933,7 @@ class ExtremeMaker {
         }
       }
     }
-    if (!shape_.has[kU3]) return;
+    if (!shape_.samples) return;
     // Tails of the density: a tiny density times a large Jacobian.
     for (const double alpha : {1e-5, 1e-3, 0.5}) {
       SetAlpha(scene, alpha, alpha);

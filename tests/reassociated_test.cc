@@ -74,9 +74,9 @@ void BeckmannLambda(const float* const* in, float* const* out, size_t n) {
 void Sample(const float* const* in, float* const* out, size_t n) {
   OverVectors<9, 6>(in, out, n, [](auto d, const auto* v, auto* w) HWY_ATTR {
     const auto radiance = hn::Eq(hn::Zero(d), hn::Zero(d));
-    SampleRoughDielectric<Ggx, JointMasking::kHeightCorrelated, kA>(d, radiance, w[0], w[1], w[2], w[3], w[4],
-                                                                    w[5], v[0], v[1], v[2], v[3], v[4], v[5],
-                                                                    v[8], v[6], v[7]);
+    SampleRoughDielectric<Ggx, Lobes::kBoth, JointMasking::kHeightCorrelated, kA>(
+        d, radiance, w[0], w[1], w[2], w[3], w[4], w[5], v[0], v[1], v[2], v[3], v[4], v[5], v[8], v[6],
+        v[7]);
   });
 }
 

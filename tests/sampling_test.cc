@@ -83,9 +83,30 @@ std::vector<DielectricCase> DielectricCases() {
   return cases;
 }
 
+// A sampler of directions with the value and the density that it must agree with.
+struct DielectricSampler {
+  std::string_view sample, eval, pdf;
+  std::size_t every;  // of the cases, how many are tried for the density
+
+  bool ChoosesLobe() const { return pdf == "pdf"; }
+};
+constexpr DielectricSampler kDielectricSamplers[] = {
+    {"sample", "eval", "pdf", 1},
+    {"sample_reflection", "eval_reflection", "pdf_reflection", 7},
+    {"sample_transmission", "eval_transmission", "pdf_transmission", 7},
+    {"sample_separable", "eval_separable", "pdf", 53},
+    {"sample_reflection_separable", "eval_reflection_separable", "pdf_reflection", 53},
+    {"sample_transmission_separable", "eval_transmission_separable", "pdf_transmission", 53},
+};
+
 // Sidak's correction over all chi-square tests of this file.
 double ChiSquareSignificance() {
-  return SidakSignificance(kOverallSignificance, NormalCases().size() + DielectricCases().size());
+  std::size_t count = NormalCases().size();
+  const std::size_t cases = DielectricCases().size();
+  for (const DielectricSampler& sampler : kDielectricSamplers) {
+    count += (cases + sampler.every - 1) / sampler.every;
+  }
+  return SidakSignificance(kOverallSignificance, count);
 }
 
 // Cells of the sphere, between quantiles of the colatitude and of the azimuth of given directions, for each
@@ -341,31 +362,44 @@ struct SampledDirections {
   Column<float> weight;
 };
 
+// The outputs of a sampler at random numbers.
+template <class T, class Incident>
+std::vector<Column<T>> RunSampler(const DielectricSampler& sampler, const DielectricCase& c,
+                                  const Incident& wi, std::size_t n, Mode mode, std::mt19937_64& random) {
+  const Column<T> u1 = UniformNumbers<T>(n, random), u2 = UniformNumbers<T>(n, random),
+                  u3 = UniformNumbers<T>(n, random);
+  const std::string id = c.distribution.Dielectric(sampler.sample);
+  if (!sampler.ChoosesLobe()) return RunAll<T>(id, n, mode, wi, u1, u2, c.distribution, c.eta);
+  return RunAll<T>(id, n, mode, wi, u1, u2, u3, c.distribution, c.eta);
+}
+
 SampledDirections SampleDirections(const DielectricCase& c, std::size_t n, std::mt19937_64& random,
-                                   Accuracy accuracy, std::string_view quantity = "sample") {
-  const Direction wi = c.wi();
-  const Column<float> u1 = UniformNumbers<float>(n, random), u2 = UniformNumbers<float>(n, random),
-                      u3 = UniformNumbers<float>(n, random);
-  std::vector<Column<float>> out = RunAll<float>(c.distribution.Dielectric(quantity), n, {accuracy}, wi, u1,
-                                                 u2, u3, c.distribution, c.eta);
+                                   Accuracy accuracy,
+                                   const DielectricSampler& sampler = kDielectricSamplers[0]) {
+  std::vector<Column<float>> out = RunSampler<float>(sampler, c, c.wi(), n, {accuracy}, random);
   return {{std::move(out[0]), std::move(out[1]), std::move(out[2])}, std::move(out[3])};
 }
 
 TEST(RoughDielectricSampler, DensityIsItsPdfOverTheWholeSphereAndFailuresAreTheRest) {
   constexpr std::size_t kSamples = 100000;
-  ChiSquareTally tally("directions against pdf");
-  std::uint64_t seed = 1000;
-  for (const DielectricCase& c : DielectricCases()) {
-    std::mt19937_64 random(seed);
-    // Every fourth case in the fast accuracy.
-    const Accuracy accuracy = seed++ % 4 == 0 ? Accuracy::kFast : Accuracy::kStandard;
-    const DirectionColumns<float> pilot = SampleDirections(c, 20000, random, accuracy).wo;
-    const DirectionColumns<float> samples = SampleDirections(c, kSamples, random, accuracy).wo;
-    const Direction wi = c.wi();
-    const DensityTest test = TestDensity(pilot, samples, [&](const DirectionColumns<double>& wo) {
-      return RunOne<double>(c.distribution.Dielectric("pdf"), wo.size(), {}, wi, wo, c.distribution, c.eta);
-    });
-    tally.Add(test, kSamples, c.Text());
+  const std::vector<DielectricCase> cases = DielectricCases();
+  for (const DielectricSampler& sampler : kDielectricSamplers) {
+    ChiSquareTally tally(std::string(sampler.sample) + " against " + std::string(sampler.pdf));
+    std::uint64_t seed = 1000;
+    for (std::size_t i = 0; i < cases.size(); i += sampler.every) {
+      const DielectricCase& c = cases[i];
+      std::mt19937_64 random(seed);
+      // Every fourth case in the fast accuracy.
+      const Accuracy accuracy = seed++ % 4 == 0 ? Accuracy::kFast : Accuracy::kStandard;
+      const DirectionColumns<float> pilot = SampleDirections(c, 20000, random, accuracy, sampler).wo;
+      const DirectionColumns<float> samples = SampleDirections(c, kSamples, random, accuracy, sampler).wo;
+      const Direction wi = c.wi();
+      const DensityTest test = TestDensity(pilot, samples, [&](const DirectionColumns<double>& wo) {
+        return RunOne<double>(c.distribution.Dielectric(sampler.pdf), wo.size(), {}, wi, wo, c.distribution,
+                              c.eta);
+      });
+      tally.Add(test, kSamples, c.Text());
+    }
   }
 }
 
@@ -399,22 +433,21 @@ struct Checked {
 };
 
 template <class T>
-Checked<T> SampleAndEvaluate(const DielectricCase& c, std::string_view suffix, Mode mode, std::size_t n,
-                             std::mt19937_64& random) {
-  const Column<T> u1 = UniformNumbers<T>(n, random), u2 = UniformNumbers<T>(n, random),
-                  u3 = UniformNumbers<T>(n, random);
+Checked<T> SampleAndEvaluate(const DielectricSampler& sampler, const DielectricCase& c, Mode mode,
+                             std::size_t n, std::mt19937_64& random) {
   Checked<T> result;
   for (std::size_t i = 0; i < n; ++i) result.wi.PushBack(c.wi());
-  std::vector<Column<T>> out = RunAll<T>(c.distribution.Dielectric("sample") + std::string(suffix), n, mode,
-                                         result.wi, u1, u2, u3, c.distribution, c.eta);
+  const std::vector<Column<T>> out = RunSampler<T>(sampler, c, result.wi, n, mode, random);
   result.wo = {out[0], out[1], out[2]};
   result.weight = out[3];
   result.pdf = out[4];
   result.lobe = out[5];
-  result.f_cos = RunOne<T>(c.distribution.Dielectric("eval") + std::string(suffix), n, mode, result.wi,
-                           result.wo, c.distribution, c.eta);
-  result.pdf_there =
-      RunOne<T>(c.distribution.Dielectric("pdf"), n, mode, result.wi, result.wo, c.distribution, c.eta);
+  const auto there = [&](std::string_view quantity) {
+    return RunOne<T>(c.distribution.Dielectric(quantity), n, mode, result.wi, result.wo, c.distribution,
+                     c.eta);
+  };
+  result.f_cos = there(sampler.eval);
+  result.pdf_there = there(sampler.pdf);
   return result;
 }
 
@@ -427,19 +460,21 @@ void ExpectWeightsAreValueOverDensity(Accuracy accuracy, const std::string& name
   std::size_t doubtful = 0, successes = 0, failures = 0;
   std::uint64_t seed = 5000;
   for (const DielectricCase& c : DielectricCases()) {
-    for (const std::string_view suffix : {"", "_separable"}) {
-      if (!suffix.empty() && c.distribution.family != "ggx") continue;
+    for (const DielectricSampler& sampler : kDielectricSamplers) {
       std::mt19937_64 random(seed);
       const Mode mode{accuracy, seed++ % 2 == 0 ? Transport::kRadiance : Transport::kImportance};
       const std::size_t n = 500;
-      const Checked<T> s = SampleAndEvaluate<T>(c, suffix, mode, n, random);
+      const Checked<T> s = SampleAndEvaluate<T>(sampler, c, mode, n, random);
       const double declared =
           std::is_same_v<T, float> ? 2 * DeclaredError<T>(c.distribution.Dielectric("eval"), accuracy) : 0;
       // In the fast accuracy every step counts as a rounding, to about 2^-14.
       const bool fast = accuracy == Accuracy::kFast;
       const double u = fast ? 0x1p-14 : kRounding<T>, factor = fast ? 4 : 16, largest = fast ? 0.02 : 1e-3;
       for (std::size_t i = 0; i < n; ++i) {
-        const auto where = [&] { return c.Text() + " wi " + Text(s.wi[i]) + " wo " + Text(s.wo[i]); };
+        const auto where = [&] {
+          return std::string(sampler.sample) + ' ' + c.Text() + " wi " + Text(s.wi[i]) + " wo " +
+                 Text(s.wo[i]);
+        };
         if (s.lobe[i] == 0) {
           ++failures;
           invisible.Add(

@@ -67,37 +67,22 @@ constexpr ScalarBound kScalarBounds[] = {
     {"half_vector.refraction_jacobian_cos", 0.51, 0.51},
     {"reflect", 4, 4},
     {"refract", 6, 6},
-    {"rough_dielectric.eval", 0.51, 16},
-    {"rough_dielectric.eval_reflection", 0.51, 16},
-    {"rough_dielectric.eval_transmission", 0.51, 16},
-    {"rough_dielectric.eval_separable", 0.51, 16},
-    {"rough_dielectric.eval_reflection_separable", 0.51, 16},
-    {"rough_dielectric.eval_transmission_separable", 0.51, 16},
-    {"rough_dielectric.pdf", 0.51, 16},
-    {"rough_dielectric.pdf_reflection", 0.51, 16},
-    {"rough_dielectric.pdf_transmission", 0.51, 16},
-    {"rough_dielectric.eval_pdf", 0.51, 16},
-    {"rough_dielectric.eval_pdf_separable", 0.51, 16},
-    {"rough_dielectric.sample", 2.5, 32768},
-    {"rough_dielectric.sample_separable", 2.5, 32768},
-    {"rough_dielectric_beckmann.eval", 6, 20},
-    {"rough_dielectric_beckmann.eval_separable", 6, 20},
-    {"rough_dielectric_beckmann.eval_reflection", 6, 20},
-    {"rough_dielectric_beckmann.eval_transmission", 6, 20},
-    {"rough_dielectric_beckmann.pdf", 0.51, 20},
-    {"rough_dielectric_beckmann.eval_pdf", 6, 20},
-    {"rough_dielectric_beckmann.sample", 2.5, 32768},
-    {"rough_dielectric_phong.eval", 0.51, 16},
-    {"rough_dielectric_phong.eval_separable", 0.51, 16},
-    {"rough_dielectric_phong.eval_reflection", 0.51, 16},
-    {"rough_dielectric_phong.eval_transmission", 0.51, 16},
-    {"rough_dielectric_phong.pdf", 0.51, 16},
-    {"rough_dielectric_phong.eval_pdf", 0.51, 16},
-    {"rough_dielectric_phong.sample", 2.5, 32768},
 };
 // clang-format on
 
-constexpr ScalarBound FindBound(std::string_view id) {
+// Of each family's quantities, by DielectricQuantity::What.
+constexpr ScalarBound kScalarDielectricBounds[kNumDielectricFamilies][4] = {
+    {{"eval", 0.51, 16}, {"pdf", 0.51, 16}, {"eval_pdf", 0.51, 16}, {"sample", 2.5, 32768}},
+    {{"eval", 6, 20}, {"pdf", 0.51, 20}, {"eval_pdf", 6, 20}, {"sample", 2.5, 32768}},
+    {{"eval", 0.51, 16}, {"pdf", 0.51, 16}, {"eval_pdf", 0.51, 16}, {"sample", 2.5, 32768}}};
+
+constexpr ScalarBound FindBound(std::size_t kernel) {
+  if (kernel >= kNumComponentKernels) {
+    const std::size_t i = kernel - kNumComponentKernels;
+    const DielectricQuantity& quantity = kDielectricQuantities[i % kNumDielectricQuantities];
+    return kScalarDielectricBounds[i / kNumDielectricQuantities][quantity.what];
+  }
+  const std::string_view id = kKernels[kernel].id;
   for (const ScalarBound& bound : kScalarBounds) {
     if (bound.id == id) return bound;
   }
@@ -430,7 +415,7 @@ TEST_P(ScalarKernel, StaysWithinItsBoundOfTheOracle) {
   }
   std::printf("[points] %.*s %zu, max ulp float %.3g, double %.3g\n", static_cast<int>(id.size()), id.data(),
               points, of_float.ulp, of_double.ulp);
-  const ScalarBound bound = FindBound(id);
+  const ScalarBound bound = FindBound(kernel);
   EXPECT_LE(of_float.ulp, bound.of_float) << "inputs " << HexFloats(of_float.inputs, num_inputs) << "\n"
                                           << of_float.what;
   EXPECT_LE(of_double.ulp, bound.of_double) << "inputs " << HexFloats(of_double.inputs, num_inputs) << "\n"

@@ -625,7 +625,6 @@ TEST(RoughDielectric, LobesArePartsOfTheWholeAndEvalPdfIsBoth) {
     Tally fused("eval_pdf = eval and pdf, " + name);
     std::uint64_t seed = 2000;
     for (const Distribution& distribution : ModelDistributions()) {
-      const bool is_ggx = distribution.family == "ggx";
       const auto id = [&](std::string_view quantity) { return distribution.Dielectric(quantity); };
       // The same formula may be rounded in another order.
       const double declared = 2 * DeclaredError<T>(id("eval"), accuracy);
@@ -639,22 +638,19 @@ TEST(RoughDielectric, LobesArePartsOfTheWholeAndEvalPdfIsBoth) {
         const Column<T> pdf = run("pdf")[0];
         for (const std::string suffix : {"", "_separable"}) {
           const Column<T> eval = run("eval" + suffix)[0];
-          if (suffix.empty() || is_ggx) {
-            const Column<T> reflection = run("eval_reflection" + suffix)[0];
-            const Column<T> transmission = run("eval_transmission" + suffix)[0];
-            const std::vector<Column<T>> both = run("eval_pdf" + suffix);
-            for (std::size_t i = 0; i < n; ++i) {
-              const auto where = [&] { return PairText(distribution, pairs, i, eta); };
-              const double part = pairs.reflects[i] ? reflection[i] : transmission[i];
-              const double other = pairs.reflects[i] ? transmission[i] : reflection[i];
-              parts.Add(other, 0, where);
-              parts.AddRelative(part, eval[i], declared, where);
-              fused.AddRelative(both[0][i], eval[i], declared, where);
-              fused.AddRelative(both[1][i], pdf[i], declared, where);
-            }
+          const Column<T> reflection = run("eval_reflection" + suffix)[0];
+          const Column<T> transmission = run("eval_transmission" + suffix)[0];
+          const std::vector<Column<T>> both = run("eval_pdf" + suffix);
+          for (std::size_t i = 0; i < n; ++i) {
+            const auto where = [&] { return PairText(distribution, pairs, i, eta); };
+            const double part = pairs.reflects[i] ? reflection[i] : transmission[i];
+            const double other = pairs.reflects[i] ? transmission[i] : reflection[i];
+            parts.Add(other, 0, where);
+            parts.AddRelative(part, eval[i], declared, where);
+            fused.AddRelative(both[0][i], eval[i], declared, where);
+            fused.AddRelative(both[1][i], pdf[i], declared, where);
           }
         }
-        if (!is_ggx) continue;
         const Column<T> pdf_reflection = run("pdf_reflection")[0],
                         pdf_transmission = run("pdf_transmission")[0];
         // F of the half vector, in double lanes from the directions as they are in T.

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <iterator>
 #include <string_view>
 
 namespace microlane {
@@ -120,12 +121,17 @@ inline constexpr std::string_view kEvalNote =
     "f |cos(theta_o)|. Same signs of wiz and woz: reflection; opposite: transmission; 0 where either is 0, where a "
     "sidedness test (Walter 7) fails, or under total internal reflection. Transmission carries eta^2 for radiance "
     "(Walter 21 as printed) and not for importance. Height-correlated: G = 1/(1 + Lambda_i + Lambda_o), Heitz 99.";
-inline constexpr std::string_view kSeparableNote = "As above with the separable G = G1(i) G1(o), Walter 23.";
+inline constexpr std::string_view kSeparableNote = "As eval with the separable G = G1(i) G1(o), Walter 23.";
 inline constexpr std::string_view kPdfNote =
     "Solid-angle density of wo for D cos sampling of normals (Walter 24, 38) and, with both lobes, choice by Fresnel.";
+inline constexpr std::string_view kEvalPdfNote = "eval and pdf in one call.";
+inline constexpr std::string_view kEvalPdfSeparableNote = "eval_separable and pdf in one call.";
 inline constexpr std::string_view kSampleNote =
-    "wi.m > 0 on wi's side, else none; with both lobes u3 < F reflects. Outside its hemisphere: lobe 0, and every "
-    "output 0. weight = f |cos(theta_o)| / pdf in closed form (Walter 41).";
+    "wi.m > 0 on wi's side, else none; u3 < F reflects. Outside its hemisphere: lobe 0, and every output 0. "
+    "weight = f |cos(theta_o)| / pdf in closed form (Walter 41).";
+inline constexpr std::string_view kSampleLobeNote =
+    "As sample with one lobe and no choice: weight = F or 1 - F times Walter 41, pdf without that factor; lobe 0 also "
+    "where total internal reflection leaves nothing to transmit.";
 
 inline constexpr Bounds kComponent = {1, 4, 4096, 8, 4096};
 inline constexpr Bounds kHalfVector = {1, 5, 4096, 8, 1 << 28};  // double lanes are not compensated where o.H cancels
@@ -135,7 +141,7 @@ inline constexpr Bounds kValue = {1, 40, 4096, 64, 1 << 20};
 inline constexpr Bounds kSample = {1, 40, 8192, 64, 1 << 20};  // kFast: the normal is within 2^-13, which refraction magnifies
 inline constexpr Bounds kPhongSample = {1, 128, 8192, 128, 1 << 20};  // 66 at u1 = 2^-149, where pdf is subnormal
 
-inline constexpr Kernel kKernels[] = {
+inline constexpr Kernel kComponentKernels[] = {
     // Mathematics that Highway 1.0.3 lacks, as the kernels use it.
     {"math.exp", "x", "y", "e^x", "0 below the subnormal range.", false, kComponent},
     {"math.neg_log1m", "u1", "y", "-log(1 - u), used by Walter 2007 Eq. 28", "u in [0, 1).", false, kComponent},
@@ -179,42 +185,146 @@ inline constexpr Kernel kKernels[] = {
 
     {"reflect", "wix wiy wiz mx my mz", "wox woy woz", "Walter 2007 Eq. 39, as 2 (i.m) m - i", "", false, kHalfVector},
     {"refract", "wix wiy wiz mx my mz | eta", "wox woy woz", "Walter 2007 Eq. 40", "sign(i.n) is sign(wiz), sign(0) = 1; 0 under total internal reflection.", false, kHalfVector},
+};
 
-    {"rough_dielectric.eval", "wix wiy wiz wox woy woz | alpha_x alpha_y eta", "f_cos", "Walter 2007 Eqs. 19-21, GGX; Heitz 2014 Eq. 99", kEvalNote, true, kValue},
-    {"rough_dielectric.eval_reflection", "wix wiy wiz wox woy woz | alpha_x alpha_y eta", "f_cos", "Walter 2007 Eq. 20, GGX; Heitz 2014 Eq. 99", kEvalNote, false, kValue},
-    {"rough_dielectric.eval_transmission", "wix wiy wiz wox woy woz | alpha_x alpha_y eta", "f_cos", "Walter 2007 Eq. 21, GGX; Heitz 2014 Eq. 99", kEvalNote, true, kValue},
-    {"rough_dielectric.eval_separable", "wix wiy wiz wox woy woz | alpha_x alpha_y eta", "f_cos", "Walter 2007 Eqs. 19-21, 23, GGX", kSeparableNote, true, kValue},
-    {"rough_dielectric.eval_reflection_separable", "wix wiy wiz wox woy woz | alpha_x alpha_y eta", "f_cos", "Walter 2007 Eqs. 20, 23, GGX", kSeparableNote, false, kValue},
-    {"rough_dielectric.eval_transmission_separable", "wix wiy wiz wox woy woz | alpha_x alpha_y eta", "f_cos", "Walter 2007 Eqs. 21, 23, GGX", kSeparableNote, true, kValue},
-    {"rough_dielectric.pdf", "wix wiy wiz wox woy woz | alpha_x alpha_y eta", "pdf", "Walter 2007 Eqs. 24, 38, section 5.3, GGX", kPdfNote, false, kValue},
-    {"rough_dielectric.pdf_reflection", "wix wiy wiz wox woy woz | alpha_x alpha_y eta", "pdf", "Walter 2007 Eqs. 14, 24, 38, GGX", kPdfNote, false, kValue},
-    {"rough_dielectric.pdf_transmission", "wix wiy wiz wox woy woz | alpha_x alpha_y eta", "pdf", "Walter 2007 Eqs. 17, 24, 38, GGX", kPdfNote, false, kValue},
-    {"rough_dielectric.eval_pdf", "wix wiy wiz wox woy woz | alpha_x alpha_y eta", "f_cos pdf", "rough_dielectric.eval and .pdf in one call", kEvalNote, true, kValue},
-    {"rough_dielectric.eval_pdf_separable", "wix wiy wiz wox woy woz | alpha_x alpha_y eta", "f_cos pdf", "rough_dielectric.eval_separable and .pdf in one call", kSeparableNote, true, kValue},
-    {"rough_dielectric.sample", "wix wiy wiz u1 u2 u3 | alpha_x alpha_y eta", "wox woy woz weight pdf lobe", "Walter 2007 section 5.3, Eqs. 35-41, GGX", kSampleNote, true, kSample},
-    {"rough_dielectric.sample_separable", "wix wiy wiz u1 u2 u3 | alpha_x alpha_y eta", "wox woy woz weight pdf lobe", "Walter 2007 section 5.3, Eqs. 23, 35-41, GGX", kSampleNote, true, kSample},
+// What the rough dielectric gives over each distribution of normals.
+struct DielectricQuantity {
+  enum What { kEval, kPdf, kEvalPdf, kSample };
+  std::string_view name;
+  What what;
+  bool reflects, transmits;  // both: the lobe is chosen by Fresnel
+  bool separable;            // masking of the value; else height-correlated
+  std::string_view source, note;
 
-    {"rough_dielectric_beckmann.eval", "wix wiy wiz wox woy woz | alpha_x alpha_y eta", "f_cos", "Walter 2007 Eqs. 19-21, Beckmann; Heitz 2014 Eq. 99", kEvalNote, true, kValue},
-    {"rough_dielectric_beckmann.eval_separable", "wix wiy wiz wox woy woz | alpha_x alpha_y eta", "f_cos", "Walter 2007 Eqs. 19-21, 23, Beckmann", kSeparableNote, true, kValue},
-    {"rough_dielectric_beckmann.eval_reflection", "wix wiy wiz wox woy woz | alpha_x alpha_y eta", "f_cos", "Walter 2007 Eq. 20, Beckmann; Heitz 2014 Eq. 99", kEvalNote, false, kValue},
-    {"rough_dielectric_beckmann.eval_transmission", "wix wiy wiz wox woy woz | alpha_x alpha_y eta", "f_cos", "Walter 2007 Eq. 21, Beckmann; Heitz 2014 Eq. 99", kEvalNote, true, kValue},
-    {"rough_dielectric_beckmann.pdf", "wix wiy wiz wox woy woz | alpha_x alpha_y eta", "pdf", "Walter 2007 Eqs. 24, 38, section 5.3, Beckmann", kPdfNote, false, kValue},
-    {"rough_dielectric_beckmann.eval_pdf", "wix wiy wiz wox woy woz | alpha_x alpha_y eta", "f_cos pdf", "rough_dielectric_beckmann.eval and .pdf in one call", kEvalNote, true, kValue},
-    {"rough_dielectric_beckmann.sample", "wix wiy wiz u1 u2 u3 | alpha_x alpha_y eta", "wox woy woz weight pdf lobe", "Walter 2007 section 5.3, Eqs. 28, 29, 37-41, Beckmann", kSampleNote, true, kSample},
+  constexpr bool HasBothLobes() const { return reflects && transmits; }
+  constexpr bool HasValue() const { return what != kPdf; }
+};
 
-    {"rough_dielectric_phong.eval", "wix wiy wiz wox woy woz | exponent eta", "f_cos", "Walter 2007 Eqs. 19-21, Phong; Heitz 2014 Eq. 99", kEvalNote, true, kValue},
-    {"rough_dielectric_phong.eval_separable", "wix wiy wiz wox woy woz | exponent eta", "f_cos", "Walter 2007 Eqs. 19-21, 23, Phong", kSeparableNote, true, kValue},
-    {"rough_dielectric_phong.eval_reflection", "wix wiy wiz wox woy woz | exponent eta", "f_cos", "Walter 2007 Eq. 20, Phong; Heitz 2014 Eq. 99", kEvalNote, false, kValue},
-    {"rough_dielectric_phong.eval_transmission", "wix wiy wiz wox woy woz | exponent eta", "f_cos", "Walter 2007 Eq. 21, Phong; Heitz 2014 Eq. 99", kEvalNote, true, kValue},
-    {"rough_dielectric_phong.pdf", "wix wiy wiz wox woy woz | exponent eta", "pdf", "Walter 2007 Eqs. 24, 38, section 5.3, Phong", kPdfNote, false, kValue},
-    {"rough_dielectric_phong.eval_pdf", "wix wiy wiz wox woy woz | exponent eta", "f_cos pdf", "rough_dielectric_phong.eval and .pdf in one call", kEvalNote, true, kValue},
-    {"rough_dielectric_phong.sample", "wix wiy wiz u1 u2 u3 | exponent eta", "wox woy woz weight pdf lobe", "Walter 2007 section 5.3, Eqs. 31, 32, 37-41, Phong", kSampleNote, true, kPhongSample},
+inline constexpr DielectricQuantity kDielectricQuantities[] = {
+    {"eval", DielectricQuantity::kEval, true, true, false, "Walter 2007 Eqs. 19-21; Heitz 2014 Eq. 99", kEvalNote},
+    {"eval_reflection", DielectricQuantity::kEval, true, false, false, "Walter 2007 Eq. 20; Heitz 2014 Eq. 99", kEvalNote},
+    {"eval_transmission", DielectricQuantity::kEval, false, true, false, "Walter 2007 Eq. 21; Heitz 2014 Eq. 99", kEvalNote},
+    {"eval_separable", DielectricQuantity::kEval, true, true, true, "Walter 2007 Eqs. 19-21, 23", kSeparableNote},
+    {"eval_reflection_separable", DielectricQuantity::kEval, true, false, true, "Walter 2007 Eqs. 20, 23", kSeparableNote},
+    {"eval_transmission_separable", DielectricQuantity::kEval, false, true, true, "Walter 2007 Eqs. 21, 23", kSeparableNote},
+    {"pdf", DielectricQuantity::kPdf, true, true, false, "Walter 2007 Eqs. 24, 38, section 5.3", kPdfNote},
+    {"pdf_reflection", DielectricQuantity::kPdf, true, false, false, "Walter 2007 Eqs. 14, 24, 38", kPdfNote},
+    {"pdf_transmission", DielectricQuantity::kPdf, false, true, false, "Walter 2007 Eqs. 17, 24, 38", kPdfNote},
+    {"eval_pdf", DielectricQuantity::kEvalPdf, true, true, false, "Walter 2007 Eqs. 19-21, 24, 38; Heitz 2014 Eq. 99", kEvalPdfNote},
+    {"eval_pdf_separable", DielectricQuantity::kEvalPdf, true, true, true, "Walter 2007 Eqs. 19-21, 23, 24, 38", kEvalPdfSeparableNote},
+    {"sample", DielectricQuantity::kSample, true, true, false, "Walter 2007 section 5.3, Eqs. 37-41; Heitz 2014 Eq. 99", kSampleNote},
+    {"sample_reflection", DielectricQuantity::kSample, true, false, false, "Walter 2007 Eqs. 37-39, 41; Heitz 2014 Eq. 99", kSampleLobeNote},
+    {"sample_transmission", DielectricQuantity::kSample, false, true, false, "Walter 2007 Eqs. 37, 38, 40, 41; Heitz 2014 Eq. 99", kSampleLobeNote},
+    {"sample_separable", DielectricQuantity::kSample, true, true, true, "Walter 2007 section 5.3, Eqs. 23, 37-41", kSampleNote},
+    {"sample_reflection_separable", DielectricQuantity::kSample, true, false, true, "Walter 2007 Eqs. 23, 37-39, 41", kSampleLobeNote},
+    {"sample_transmission_separable", DielectricQuantity::kSample, false, true, true, "Walter 2007 Eqs. 23, 37, 38, 40, 41", kSampleLobeNote},
+};
+
+// Distributions of normals that the rough dielectric comes with, by their places in kDielectricFamilies.
+enum class Normals { kGgx, kBeckmann, kPhong };
+
+struct DielectricFamily {
+  std::string_view id;          // before the '.'
+  std::string_view parameters;  // of the distribution
+  std::string_view source;      // its equations
+  Bounds value, sample;
+};
+
+inline constexpr DielectricFamily kDielectricFamilies[] = {
+    {"rough_dielectric", "alpha_x alpha_y", "GGX: Walter 2007 Eqs. 33-36, stretched", kValue, kSample},
+    {"rough_dielectric_beckmann", "alpha_x alpha_y", "Beckmann: Walter 2007 Eqs. 25, 26, 28, 29, stretched", kValue, kSample},
+    {"rough_dielectric_phong", "exponent", "Phong: Walter 2007 Eqs. 27, 30-32", kValue, kPhongSample},
 };
 // clang-format on
 
-inline constexpr std::size_t kNumKernels = sizeof(kKernels) / sizeof(kKernels[0]);
+inline constexpr std::size_t kNumComponentKernels = std::size(kComponentKernels);
+inline constexpr std::size_t kNumDielectricQuantities = std::size(kDielectricQuantities);
+inline constexpr std::size_t kNumDielectricFamilies = std::size(kDielectricFamilies);
+inline constexpr std::size_t kNumKernels =
+    kNumComponentKernels + kNumDielectricFamilies * kNumDielectricQuantities;
 inline constexpr std::size_t kMaxInputs = 9;
 inline constexpr std::size_t kMaxOutputs = 6;
+
+// Index into kKernels of a quantity, itself an index into kDielectricQuantities.
+constexpr std::size_t DielectricKernel(Normals normals, std::size_t quantity) {
+  return kNumComponentKernels + static_cast<std::size_t>(normals) * kNumDielectricQuantities + quantity;
+}
+
+// Index into kDielectricQuantities, or their number if there is none.
+constexpr std::size_t FindDielectricQuantity(DielectricQuantity::What what, bool reflects, bool transmits,
+                                             bool separable) {
+  std::size_t i = 0;
+  for (; i < kNumDielectricQuantities; ++i) {
+    const DielectricQuantity& q = kDielectricQuantities[i];
+    if (q.what == what && q.reflects == reflects && q.transmits == transmits && q.separable == separable) {
+      break;
+    }
+  }
+  return i;
+}
+
+// Text joined at compile time.
+class JoinedText {
+ public:
+  constexpr JoinedText() = default;
+  template <class... Parts>
+  constexpr explicit JoinedText(Parts... parts) {
+    (Append(parts), ...);
+  }
+  constexpr std::string_view view() const { return {text_, size_}; }
+
+ private:
+  constexpr void Append(std::string_view part) {
+    for (const char c : part) text_[size_++] = c;
+  }
+
+  char text_[128] = {};
+  std::size_t size_ = 0;
+};
+
+struct DielectricText {
+  JoinedText id, inputs, source;
+};
+
+constexpr auto MakeDielectricText() {
+  std::array<std::array<DielectricText, kNumDielectricQuantities>, kNumDielectricFamilies> text{};
+  for (std::size_t f = 0; f < kNumDielectricFamilies; ++f) {
+    const DielectricFamily& family = kDielectricFamilies[f];
+    for (std::size_t i = 0; i < kNumDielectricQuantities; ++i) {
+      const DielectricQuantity& q = kDielectricQuantities[i];
+      const std::string_view lanes = q.what != DielectricQuantity::kSample ? "wix wiy wiz wox woy woz"
+                                     : q.HasBothLobes()                    ? "wix wiy wiz u1 u2 u3"
+                                                                           : "wix wiy wiz u1 u2";
+      text[f][i] = {JoinedText(family.id, ".", q.name), JoinedText(lanes, " | ", family.parameters, " eta"),
+                    JoinedText(q.source, "; ", family.source)};
+    }
+  }
+  return text;
+}
+inline constexpr auto kDielectricText = MakeDielectricText();
+
+constexpr std::array<Kernel, kNumKernels> MakeKernels() {
+  constexpr std::string_view outputs[] = {"f_cos", "pdf", "f_cos pdf", "wox woy woz weight pdf lobe"};
+  std::array<Kernel, kNumKernels> kernels{};
+  for (std::size_t i = 0; i < kNumComponentKernels; ++i) kernels[i] = kComponentKernels[i];
+  for (std::size_t f = 0; f < kNumDielectricFamilies; ++f) {
+    const DielectricFamily& family = kDielectricFamilies[f];
+    for (std::size_t i = 0; i < kNumDielectricQuantities; ++i) {
+      const DielectricQuantity& q = kDielectricQuantities[i];
+      const DielectricText& text = kDielectricText[f][i];
+      kernels[DielectricKernel(static_cast<Normals>(f), i)] = {
+          text.id.view(),
+          text.inputs.view(),
+          outputs[q.what],
+          text.source.view(),
+          q.note,
+          q.HasValue() && q.transmits,
+          q.what == DielectricQuantity::kSample ? family.sample : family.value};
+    }
+  }
+  return kernels;
+}
+inline constexpr std::array<Kernel, kNumKernels> kKernels = MakeKernels();
 
 // Names of an `inputs` or `outputs` string, in order, without the '|'.
 struct Names {

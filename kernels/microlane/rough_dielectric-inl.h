@@ -421,9 +421,19 @@ HWY_INLINE void RoughDielectric(D d, hn::Mask<D> radiance, Vec<D>& value, Vec<D>
   }
 }
 
-// Walter 2007 section 5.3: m by Dist's D cos sampling, the lobe by Fresnel, o by Eq. 39 or 40, the weight by
-// Eq. 41.
-template <class Dist, JointMasking kG, Accuracy A, class D, class... P>
+// What belongs to the lobe of each lane.
+template <Lobes kLobes, class M, class V>
+HWY_INLINE V OfLobe(M reflects, V reflection, V transmission) {
+  if constexpr (kLobes == Lobes::kBoth) {
+    return hn::IfThenElse(reflects, reflection, transmission);
+  } else {
+    return kLobes == Lobes::kReflection ? reflection : transmission;
+  }
+}
+
+// Walter 2007 section 5.3: m by Dist's D cos sampling, o by Eq. 39 or 40, the weight by Eq. 41. With both
+// lobes u3 chooses by Fresnel, else it has no effect and the weight carries F or 1 - F.
+template <class Dist, Lobes kLobes, JointMasking kG, Accuracy A, class D, class... P>
 HWY_INLINE void SampleRoughDielectric(D d, hn::Mask<D> radiance, Vec<D>& ox, Vec<D>& oy, Vec<D>& oz,
                                       Vec<D>& weight, Vec<D>& pdf, Vec<D>& lobe, Vec<D> ix, Vec<D> iy,
                                       Vec<D> iz_signed, Vec<D> u1, Vec<D> u2, Vec<D> u3, Vec<D> eta, P... p) {
@@ -450,35 +460,42 @@ HWY_INLINE void SampleRoughDielectric(D d, hn::Mask<D> radiance, Vec<D>& ox, Vec
       hn::Mul(hn::Mul(hn::Mul(hn::Add(root, root), a), hn::MulAdd(eta, eta, m2)), hn::Mul(r, r));
 
   const auto reflects = hn::Lt(u3, reflectance);
+  const Vec<D> share = OfLobe<kLobes>(reflects, reflectance, transmittance);
   // o = s m - t i: s = 2 c, t = 1, or s = (c - g)/eta = -(eta^2 - 1)/(eta (c + g)), t = 1/eta.
   const Vec<D> gc = hn::Add(g, c);
   const Vec<D> r_eta = Reciprocal<A>(d, hn::Mul(eta, gc));
-  const Vec<D> s = hn::IfThenElse(reflects, hn::Add(c, c), hn::Neg(hn::Mul(k, r_eta)));
-  const Vec<D> t = hn::IfThenElse(reflects, one, hn::Mul(gc, r_eta));
+  const Vec<D> s = OfLobe<kLobes>(reflects, hn::Add(c, c), hn::Neg(hn::Mul(k, r_eta)));
+  const Vec<D> t = OfLobe<kLobes>(reflects, one, hn::Mul(gc, r_eta));
   ox = hn::MulSub(s, mx, hn::Mul(t, ix));
   oy = hn::MulSub(s, my, hn::Mul(t, iy));
   oz = hn::MulSub(s, mz, hn::Mul(t, iz));
   const Vec<D> zo = hn::Abs(oz);
-  const auto wrong_side = hn::IfThenElse(reflects, oz, hn::Neg(oz));
-  const auto invalid = hn::Or(hn::Le(hn::Min(c, hn::Min(iz, mz)), zero), hn::Le(wrong_side, zero));
+  const auto wrong_side = hn::Le(OfLobe<kLobes>(reflects, oz, hn::Neg(oz)), zero);
+  auto invalid = hn::Or(hn::Le(hn::Min(c, hn::Min(iz, mz)), zero), wrong_side);
+  if constexpr (kLobes == Lobes::kTransmission) invalid = hn::Or(invalid, hn::Le(g2, zero));
 
   const Vec<D> mu_i = Dist::template Masking<Care::kPlain, A>(d, ix, iy, iz, p...);
   const Vec<D> mu_o = Dist::template Masking<Care::kPlain, A>(d, ox, oy, zo, p...);
   const Vec<D> masking = MaskingDenominator<kG>(iz, mu_i, zo, mu_o);
   const Vec<D> numerator = hn::Mul(hn::Mul(Const(d, kMaskingFactor<kG>), zo), c);
   // Radiance takes Eq. 41 as it is; importance loses the eta^2 of transmission.
-  const Vec<D> lobe_factor = hn::IfThenElse(hn::Or(reflects, radiance), one, eta2);
-  weight = ZeroIf(invalid, Div<A>(d, numerator, hn::Mul(hn::Mul(mz, masking), lobe_factor)));
+  const Vec<D> lobe_factor = OfLobe<kLobes>(reflects, one, hn::IfThenElse(radiance, one, eta2));
+  weight = Div<A>(d, numerator, hn::Mul(hn::Mul(mz, masking), lobe_factor));
   // Jacobians of Eqs. 14 and 17: 1/(4 c), and eta^2 (g/eta) / (c - g)^2 with c - g = -(eta^2 - 1)/(g + c).
-  const Vec<D> gc_over_k = hn::Mul(gc, gc);
-  const Vec<D> jacobian = hn::Div(hn::IfThenElse(reflects, one, hn::Mul(hn::Mul(eta, g), gc_over_k)),
-                                  hn::IfThenElse(reflects, hn::Mul(Const(d, 4), c), hn::Mul(k, k)));
-  pdf = ZeroIf(invalid,
-               hn::Mul(hn::Mul(pdf_m, jacobian), hn::IfThenElse(reflects, reflectance, transmittance)));
+  const Vec<D> jacobian = hn::Div(OfLobe<kLobes>(reflects, one, hn::Mul(hn::Mul(eta, g), hn::Mul(gc, gc))),
+                                  OfLobe<kLobes>(reflects, hn::Mul(Const(d, 4), c), hn::Mul(k, k)));
+  pdf = hn::Mul(pdf_m, jacobian);
+  if constexpr (kLobes == Lobes::kBoth) {
+    pdf = hn::Mul(pdf, share);
+  } else {
+    weight = hn::Mul(weight, share);
+  }
+  weight = ZeroIf(invalid, weight);
+  pdf = ZeroIf(invalid, pdf);
   ox = ZeroIf(invalid, ox);
   oy = ZeroIf(invalid, oy);
   oz = ZeroIf(invalid, FlipSign(d, oz, iz_signed));
-  lobe = ZeroIf(invalid, hn::IfThenElse(reflects, one, Const(d, 2)));
+  lobe = ZeroIf(invalid, OfLobe<kLobes>(reflects, one, Const(d, 2)));
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // The rough dielectric interface of Walter 2007 in batches: value, density, both in one call, sampling.
 //
 // All functions work on n lanes of float or double and are thread-safe. Errors are those that the kernel list
-// declares for the id named with each function, <namespace>.<id>; NaN in gives NaN out in that lane.
+// declares for the id named with each function, <family>.<id>; NaN in gives NaN out in that lane.
 //
 // Light comes from wi and leaves to wo. On the same side of the surface it is reflected, on opposite sides
 // transmitted. Either may be below the surface; eta is the index on wo's side over that on wi's side in
@@ -12,7 +12,9 @@
 #define MICROLANE_ROUGH_DIELECTRIC_H_
 
 #include <cstddef>
+#include <type_traits>
 
+#include "microlane/kernel_list.h"
 #include "microlane/packets.h"
 
 namespace microlane {
@@ -30,17 +32,15 @@ struct DielectricParameters {
   Parameter<T> alpha_y;  // 1e-5 to 100
   Parameter<T> eta;      // transmitted over incident index, 1/4 to 4
 };
-template <class T>
-using DielectricParametersOf = typename packets_internal::NotDeduced<DielectricParameters<T>>::Type;
-
 // A surface with Phong normals.
 template <class T>
 struct PhongDielectricParameters {
   Parameter<T> exponent;  // 0 to 2e10
   Parameter<T> eta;       // transmitted over incident index, 1/4 to 4
 };
-template <class T>
-using PhongDielectricParametersOf = typename packets_internal::NotDeduced<PhongDielectricParameters<T>>::Type;
+template <Normals kNormals, class T>
+using DielectricParametersOf =
+    std::conditional_t<kNormals == Normals::kPhong, PhongDielectricParameters<T>, DielectricParameters<T>>;
 
 // What sampling gives. Lobe 0: no direction was found, and every output is 0.
 template <class T>
@@ -51,123 +51,105 @@ struct DielectricSamples {
   T* lobe;    // 0 none, 1 reflection, 2 transmission
 };
 
-// GGX normals.
-namespace rough_dielectric {
+// The calls over one distribution of normals in lanes of T.
+template <Normals kNormals, class T>
+class RoughDielectricLanes {
+ public:
+  using Surface = DielectricParametersOf<kNormals, T>;
 
-// Reflection and transmission. Walter 2007 Eqs. 19-21. eval, eval_separable.
-template <class T>
-void Eval(std::size_t n, const DirectionsOf<T>& wi, const DirectionsOf<T>& wo,
-          const DielectricParametersOf<T>& surface, T* f_cos, Accuracy accuracy = Accuracy::kStandard,
-          Transport transport = Transport::kRadiance, JointMasking masking = JointMasking::kHeightCorrelated);
+  // Reflection and transmission. Walter 2007 Eqs. 19-21. eval, eval_separable.
+  static void Eval(std::size_t n, const Directions<T>& wi, const Directions<T>& wo, const Surface& surface,
+                   T* f_cos, Accuracy accuracy = Accuracy::kStandard,
+                   Transport transport = Transport::kRadiance,
+                   JointMasking masking = JointMasking::kHeightCorrelated);
 
-// Reflection alone; 0 for opposite sides. Walter 2007 Eq. 20. eval_reflection, eval_reflection_separable.
-template <class T>
-void EvalReflection(std::size_t n, const DirectionsOf<T>& wi, const DirectionsOf<T>& wo,
-                    const DielectricParametersOf<T>& surface, T* f_cos,
-                    Accuracy accuracy = Accuracy::kStandard,
-                    JointMasking masking = JointMasking::kHeightCorrelated);
+  // Reflection alone; 0 for opposite sides. Walter 2007 Eq. 20. eval_reflection, eval_reflection_separable.
+  static void EvalReflection(std::size_t n, const Directions<T>& wi, const Directions<T>& wo,
+                             const Surface& surface, T* f_cos, Accuracy accuracy = Accuracy::kStandard,
+                             JointMasking masking = JointMasking::kHeightCorrelated);
 
-// Transmission alone; 0 for the same side. Walter 2007 Eq. 21. eval_transmission,
-// eval_transmission_separable.
-template <class T>
-void EvalTransmission(std::size_t n, const DirectionsOf<T>& wi, const DirectionsOf<T>& wo,
-                      const DielectricParametersOf<T>& surface, T* f_cos,
-                      Accuracy accuracy = Accuracy::kStandard, Transport transport = Transport::kRadiance,
+  // Transmission alone; 0 for the same side. Walter 2007 Eq. 21. eval_transmission,
+  // eval_transmission_separable.
+  static void EvalTransmission(std::size_t n, const Directions<T>& wi, const Directions<T>& wo,
+                               const Surface& surface, T* f_cos, Accuracy accuracy = Accuracy::kStandard,
+                               Transport transport = Transport::kRadiance,
+                               JointMasking masking = JointMasking::kHeightCorrelated);
+
+  // Density with which Sample finds wo: D cos sampling of normals, choice of the lobe by Fresnel. Walter 2007
+  // Eqs. 24, 38, section 5.3. pdf.
+  static void Pdf(std::size_t n, const Directions<T>& wi, const Directions<T>& wo, const Surface& surface,
+                  T* pdf, Accuracy accuracy = Accuracy::kStandard);
+
+  // Density with which SampleReflection finds wo. Walter 2007 Eqs. 14, 24, 38. pdf_reflection.
+  static void PdfReflection(std::size_t n, const Directions<T>& wi, const Directions<T>& wo,
+                            const Surface& surface, T* pdf, Accuracy accuracy = Accuracy::kStandard);
+
+  // Density with which SampleTransmission finds wo. Walter 2007 Eqs. 17, 24, 38. pdf_transmission.
+  static void PdfTransmission(std::size_t n, const Directions<T>& wi, const Directions<T>& wo,
+                              const Surface& surface, T* pdf, Accuracy accuracy = Accuracy::kStandard);
+
+  // Eval and Pdf in one call. eval_pdf, eval_pdf_separable.
+  static void EvalPdf(std::size_t n, const Directions<T>& wi, const Directions<T>& wo, const Surface& surface,
+                      T* f_cos, T* pdf, Accuracy accuracy = Accuracy::kStandard,
+                      Transport transport = Transport::kRadiance,
                       JointMasking masking = JointMasking::kHeightCorrelated);
 
-// Density with which Sample finds wo: D cos sampling of normals, choice of the lobe by Fresnel. Walter 2007
-// Eqs. 24, 38, section 5.3. pdf.
-template <class T>
-void Pdf(std::size_t n, const DirectionsOf<T>& wi, const DirectionsOf<T>& wo,
-         const DielectricParametersOf<T>& surface, T* pdf, Accuracy accuracy = Accuracy::kStandard);
+  // Directions wo from uniform numbers in [0, 1): u1 and u2 find a normal, u3 the lobe. Walter 2007
+  // section 5.3, Eqs. 37-41. sample, sample_separable.
+  static void Sample(std::size_t n, const Directions<T>& wi, const T* u1, const T* u2, const T* u3,
+                     const Surface& surface, const DielectricSamples<T>& samples,
+                     Accuracy accuracy = Accuracy::kStandard, Transport transport = Transport::kRadiance,
+                     JointMasking masking = JointMasking::kHeightCorrelated);
 
-// Density where normals sampled by D cos only reflect. Walter 2007 Eqs. 14, 24, 38. pdf_reflection.
-template <class T>
-void PdfReflection(std::size_t n, const DirectionsOf<T>& wi, const DirectionsOf<T>& wo,
-                   const DielectricParametersOf<T>& surface, T* pdf, Accuracy accuracy = Accuracy::kStandard);
+  // As Sample with reflection at every normal. Walter 2007 Eqs. 37-39, 41. sample_reflection,
+  // sample_reflection_separable.
+  static void SampleReflection(std::size_t n, const Directions<T>& wi, const T* u1, const T* u2,
+                               const Surface& surface, const DielectricSamples<T>& samples,
+                               Accuracy accuracy = Accuracy::kStandard,
+                               JointMasking masking = JointMasking::kHeightCorrelated);
 
-// Density where normals sampled by D cos only refract. Walter 2007 Eqs. 17, 24, 38. pdf_transmission.
-template <class T>
-void PdfTransmission(std::size_t n, const DirectionsOf<T>& wi, const DirectionsOf<T>& wo,
-                     const DielectricParametersOf<T>& surface, T* pdf,
-                     Accuracy accuracy = Accuracy::kStandard);
+  // As Sample with refraction at every normal; lobe 0 under total internal reflection. Walter 2007 Eqs. 37,
+  // 38, 40, 41. sample_transmission, sample_transmission_separable.
+  static void SampleTransmission(std::size_t n, const Directions<T>& wi, const T* u1, const T* u2,
+                                 const Surface& surface, const DielectricSamples<T>& samples,
+                                 Accuracy accuracy = Accuracy::kStandard,
+                                 Transport transport = Transport::kRadiance,
+                                 JointMasking masking = JointMasking::kHeightCorrelated);
+};
 
-// Eval and Pdf in one call. eval_pdf, eval_pdf_separable.
-template <class T>
-void EvalPdf(std::size_t n, const DirectionsOf<T>& wi, const DirectionsOf<T>& wo,
-             const DielectricParametersOf<T>& surface, T* f_cos, T* pdf,
-             Accuracy accuracy = Accuracy::kStandard, Transport transport = Transport::kRadiance,
-             JointMasking masking = JointMasking::kHeightCorrelated);
+// The calls over one distribution of normals, in float and double: T is that of the outputs.
+template <Normals kNormals>
+class RoughDielectricCalls : RoughDielectricLanes<kNormals, float>, RoughDielectricLanes<kNormals, double> {
+  using Float = RoughDielectricLanes<kNormals, float>;
+  using Double = RoughDielectricLanes<kNormals, double>;
 
-// Directions wo from uniform numbers in [0, 1): u1 and u2 find a normal, u3 the lobe. Walter 2007
-// section 5.3, Eqs. 35-41. sample, sample_separable.
-template <class T>
-void Sample(std::size_t n, const DirectionsOf<T>& wi, const T* u1, const T* u2, const T* u3,
-            const DielectricParametersOf<T>& surface, const DielectricSamples<T>& samples,
-            Accuracy accuracy = Accuracy::kStandard, Transport transport = Transport::kRadiance,
-            JointMasking masking = JointMasking::kHeightCorrelated);
+ public:
+  using Double::Eval;
+  using Double::EvalPdf;
+  using Double::EvalReflection;
+  using Double::EvalTransmission;
+  using Double::Pdf;
+  using Double::PdfReflection;
+  using Double::PdfTransmission;
+  using Double::Sample;
+  using Double::SampleReflection;
+  using Double::SampleTransmission;
+  using Float::Eval;
+  using Float::EvalPdf;
+  using Float::EvalReflection;
+  using Float::EvalTransmission;
+  using Float::Pdf;
+  using Float::PdfReflection;
+  using Float::PdfTransmission;
+  using Float::Sample;
+  using Float::SampleReflection;
+  using Float::SampleTransmission;
+};
 
-}  // namespace rough_dielectric
+using rough_dielectric = RoughDielectricCalls<Normals::kGgx>;
+using rough_dielectric_beckmann = RoughDielectricCalls<Normals::kBeckmann>;
+using rough_dielectric_phong = RoughDielectricCalls<Normals::kPhong>;  // masking by Walter's recipe
 
-// Beckmann normals. See rough_dielectric for what each function gives; without a choice of masking, masking
-// is height-correlated.
-namespace rough_dielectric_beckmann {
-
-template <class T>
-void Eval(std::size_t n, const DirectionsOf<T>& wi, const DirectionsOf<T>& wo,
-          const DielectricParametersOf<T>& surface, T* f_cos, Accuracy accuracy = Accuracy::kStandard,
-          Transport transport = Transport::kRadiance, JointMasking masking = JointMasking::kHeightCorrelated);
-template <class T>
-void EvalReflection(std::size_t n, const DirectionsOf<T>& wi, const DirectionsOf<T>& wo,
-                    const DielectricParametersOf<T>& surface, T* f_cos,
-                    Accuracy accuracy = Accuracy::kStandard);
-template <class T>
-void EvalTransmission(std::size_t n, const DirectionsOf<T>& wi, const DirectionsOf<T>& wo,
-                      const DielectricParametersOf<T>& surface, T* f_cos,
-                      Accuracy accuracy = Accuracy::kStandard, Transport transport = Transport::kRadiance);
-template <class T>
-void Pdf(std::size_t n, const DirectionsOf<T>& wi, const DirectionsOf<T>& wo,
-         const DielectricParametersOf<T>& surface, T* pdf, Accuracy accuracy = Accuracy::kStandard);
-template <class T>
-void EvalPdf(std::size_t n, const DirectionsOf<T>& wi, const DirectionsOf<T>& wo,
-             const DielectricParametersOf<T>& surface, T* f_cos, T* pdf,
-             Accuracy accuracy = Accuracy::kStandard, Transport transport = Transport::kRadiance);
-template <class T>
-void Sample(std::size_t n, const DirectionsOf<T>& wi, const T* u1, const T* u2, const T* u3,
-            const DielectricParametersOf<T>& surface, const DielectricSamples<T>& samples,
-            Accuracy accuracy = Accuracy::kStandard, Transport transport = Transport::kRadiance);
-
-}  // namespace rough_dielectric_beckmann
-
-// Phong normals, with Walter's recipe for their masking. See rough_dielectric for what each function gives;
-// without a choice of masking, masking is height-correlated.
-namespace rough_dielectric_phong {
-
-template <class T>
-void Eval(std::size_t n, const DirectionsOf<T>& wi, const DirectionsOf<T>& wo,
-          const PhongDielectricParametersOf<T>& surface, T* f_cos, Accuracy accuracy = Accuracy::kStandard,
-          Transport transport = Transport::kRadiance, JointMasking masking = JointMasking::kHeightCorrelated);
-template <class T>
-void EvalReflection(std::size_t n, const DirectionsOf<T>& wi, const DirectionsOf<T>& wo,
-                    const PhongDielectricParametersOf<T>& surface, T* f_cos,
-                    Accuracy accuracy = Accuracy::kStandard);
-template <class T>
-void EvalTransmission(std::size_t n, const DirectionsOf<T>& wi, const DirectionsOf<T>& wo,
-                      const PhongDielectricParametersOf<T>& surface, T* f_cos,
-                      Accuracy accuracy = Accuracy::kStandard, Transport transport = Transport::kRadiance);
-template <class T>
-void Pdf(std::size_t n, const DirectionsOf<T>& wi, const DirectionsOf<T>& wo,
-         const PhongDielectricParametersOf<T>& surface, T* pdf, Accuracy accuracy = Accuracy::kStandard);
-template <class T>
-void EvalPdf(std::size_t n, const DirectionsOf<T>& wi, const DirectionsOf<T>& wo,
-             const PhongDielectricParametersOf<T>& surface, T* f_cos, T* pdf,
-             Accuracy accuracy = Accuracy::kStandard, Transport transport = Transport::kRadiance);
-template <class T>
-void Sample(std::size_t n, const DirectionsOf<T>& wi, const T* u1, const T* u2, const T* u3,
-            const PhongDielectricParametersOf<T>& surface, const DielectricSamples<T>& samples,
-            Accuracy accuracy = Accuracy::kStandard, Transport transport = Transport::kRadiance);
-
-}  // namespace rough_dielectric_phong
 }  // namespace microlane
 
 #endif  // MICROLANE_ROUGH_DIELECTRIC_H_

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <string_view>
 
+#include "microlane/kernel_list.h"
 #include "microlane/packets.h"
 
 namespace microlane {
@@ -48,9 +49,14 @@ const FamilyFunction* BeckmannTable();
 const FamilyFunction* PhongTable();
 const FamilyFunction* FresnelTable();
 const FamilyFunction* HalfVectorTable();
-const FamilyFunction* RoughDielectricGgxTable();
-const FamilyFunction* RoughDielectricBeckmannTable();
-const FamilyFunction* RoughDielectricPhongTable();
+template <Normals kNormals>
+const FamilyFunction* RoughDielectricTable();
+template <>
+const FamilyFunction* RoughDielectricTable<Normals::kGgx>();
+template <>
+const FamilyFunction* RoughDielectricTable<Normals::kBeckmann>();
+template <>
+const FamilyFunction* RoughDielectricTable<Normals::kPhong>();
 
 // Builds a Call from a public function's arguments, in the kernel list's order.
 template <class T>

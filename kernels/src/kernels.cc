@@ -1,6 +1,8 @@
 #include "microlane/kernels.h"
 
 #include <array>
+#include <string_view>
+#include <utility>
 
 #include "microlane/kernel_list.h"
 #include "src/dispatch.h"
@@ -8,17 +10,27 @@
 namespace microlane {
 namespace {
 
+template <std::size_t... kFamily>
+const FamilyFunction* RoughDielectricTableOf(std::string_view family, std::index_sequence<kFamily...>) {
+  const FamilyFunction* table = nullptr;
+  ((family == kDielectricFamilies[kFamily].id
+        ? void(table = RoughDielectricTable<static_cast<Normals>(kFamily)>())
+        : void()),
+   ...);
+  return table;
+}
+
 const FamilyFunction* TableOf(std::string_view id) {
   const std::string_view family = id.substr(0, id.find('.'));
-  return family == "math"                        ? MathTable()
-         : family == "ggx"                       ? GgxTable()
-         : family == "beckmann"                  ? BeckmannTable()
-         : family == "phong"                     ? PhongTable()
-         : family == "fresnel"                   ? FresnelTable()
-         : family == "rough_dielectric"          ? RoughDielectricGgxTable()
-         : family == "rough_dielectric_beckmann" ? RoughDielectricBeckmannTable()
-         : family == "rough_dielectric_phong"    ? RoughDielectricPhongTable()
-                                                 : HalfVectorTable();
+  const FamilyFunction* const rough_dielectric =
+      RoughDielectricTableOf(family, std::make_index_sequence<kNumDielectricFamilies>());
+  return rough_dielectric != nullptr ? rough_dielectric
+         : family == "math"          ? MathTable()
+         : family == "ggx"           ? GgxTable()
+         : family == "beckmann"      ? BeckmannTable()
+         : family == "phong"         ? PhongTable()
+         : family == "fresnel"       ? FresnelTable()
+                                     : HalfVectorTable();
 }
 
 const FamilyFunction* Table(std::size_t kernel) {

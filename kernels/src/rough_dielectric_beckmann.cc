@@ -1,5 +1,3 @@
-#include "microlane/rough_dielectric.h"
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "src/rough_dielectric_beckmann.cc"
 #include "hwy/foreach_target.h"  // must stand before highway.h
@@ -12,26 +10,7 @@ namespace microlane {
 namespace HWY_NAMESPACE {
 namespace {
 
-constexpr std::string_view kEval = "rough_dielectric_beckmann.eval";
-constexpr std::string_view kEvalReflection = "rough_dielectric_beckmann.eval_reflection";
-constexpr std::string_view kEvalTransmission = "rough_dielectric_beckmann.eval_transmission";
-constexpr std::string_view kEvalSeparable = "rough_dielectric_beckmann.eval_separable";
-constexpr std::string_view kPdf = "rough_dielectric_beckmann.pdf";
-constexpr std::string_view kEvalPdf = "rough_dielectric_beckmann.eval_pdf";
-constexpr std::string_view kSample = "rough_dielectric_beckmann.sample";
-
-FamilyCode FamilyOnTarget() {
-  return Family<
-      RoughDielectricKernel<Beckmann, Lobes::kBoth, JointMasking::kHeightCorrelated, true, false, kEval>,
-      RoughDielectricKernel<Beckmann, Lobes::kReflection, JointMasking::kHeightCorrelated, true, false,
-                            kEvalReflection>,
-      RoughDielectricKernel<Beckmann, Lobes::kTransmission, JointMasking::kHeightCorrelated, true, false,
-                            kEvalTransmission>,
-      RoughDielectricKernel<Beckmann, Lobes::kBoth, JointMasking::kSeparable, true, false, kEvalSeparable>,
-      RoughDielectricKernel<Beckmann, Lobes::kBoth, JointMasking::kHeightCorrelated, false, true, kPdf>,
-      RoughDielectricKernel<Beckmann, Lobes::kBoth, JointMasking::kHeightCorrelated, true, true, kEvalPdf>,
-      SampleRoughDielectricKernel<Beckmann, JointMasking::kHeightCorrelated, kSample>>();
-}
+FamilyCode FamilyOnTarget() { return RoughDielectricFamily<Beckmann, Normals::kBeckmann>(); }
 
 }  // namespace
 }  // namespace HWY_NAMESPACE
@@ -42,86 +21,12 @@ HWY_AFTER_NAMESPACE();
 namespace microlane {
 
 HWY_EXPORT(FamilyOnTarget);
-const FamilyFunction* RoughDielectricBeckmannTable() { return HWY_DISPATCH_TABLE(FamilyOnTarget); }
-
-namespace rough_dielectric_beckmann {
-
-template <class T>
-void Eval(std::size_t n, const DirectionsOf<T>& wi, const DirectionsOf<T>& wo,
-          const DielectricParametersOf<T>& surface, T* f_cos, Accuracy accuracy, Transport transport,
-          JointMasking masking) {
-  const std::string_view id = masking == JointMasking::kSeparable ? "rough_dielectric_beckmann.eval_separable"
-                                                                  : "rough_dielectric_beckmann.eval";
-  DirectionPairCall<T>(wi, wo, surface)
-      .Out(f_cos)
-      .With(transport)
-      .Run(RoughDielectricBeckmannTable(), id, accuracy, n);
+template <>
+const FamilyFunction* RoughDielectricTable<Normals::kBeckmann>() {
+  return HWY_DISPATCH_TABLE(FamilyOnTarget);
 }
-
-template <class T>
-void EvalReflection(std::size_t n, const DirectionsOf<T>& wi, const DirectionsOf<T>& wo,
-                    const DielectricParametersOf<T>& surface, T* f_cos, Accuracy accuracy) {
-  DirectionPairCall<T>(wi, wo, surface)
-      .Out(f_cos)
-      .Run(RoughDielectricBeckmannTable(), "rough_dielectric_beckmann.eval_reflection", accuracy, n);
-}
-
-template <class T>
-void EvalTransmission(std::size_t n, const DirectionsOf<T>& wi, const DirectionsOf<T>& wo,
-                      const DielectricParametersOf<T>& surface, T* f_cos, Accuracy accuracy,
-                      Transport transport) {
-  DirectionPairCall<T>(wi, wo, surface)
-      .Out(f_cos)
-      .With(transport)
-      .Run(RoughDielectricBeckmannTable(), "rough_dielectric_beckmann.eval_transmission", accuracy, n);
-}
-
-template <class T>
-void Pdf(std::size_t n, const DirectionsOf<T>& wi, const DirectionsOf<T>& wo,
-         const DielectricParametersOf<T>& surface, T* pdf, Accuracy accuracy) {
-  DirectionPairCall<T>(wi, wo, surface)
-      .Out(pdf)
-      .Run(RoughDielectricBeckmannTable(), "rough_dielectric_beckmann.pdf", accuracy, n);
-}
-
-template <class T>
-void EvalPdf(std::size_t n, const DirectionsOf<T>& wi, const DirectionsOf<T>& wo,
-             const DielectricParametersOf<T>& surface, T* f_cos, T* pdf, Accuracy accuracy,
-             Transport transport) {
-  DirectionPairCall<T>(wi, wo, surface)
-      .Out(f_cos)
-      .Out(pdf)
-      .With(transport)
-      .Run(RoughDielectricBeckmannTable(), "rough_dielectric_beckmann.eval_pdf", accuracy, n);
-}
-
-template <class T>
-void Sample(std::size_t n, const DirectionsOf<T>& wi, const T* u1, const T* u2, const T* u3,
-            const DielectricParametersOf<T>& surface, const DielectricSamples<T>& samples, Accuracy accuracy,
-            Transport transport) {
-  SampleCall<T>(wi, u1, u2, u3, surface, samples)
-      .With(transport)
-      .Run(RoughDielectricBeckmannTable(), "rough_dielectric_beckmann.sample", accuracy, n);
-}
-
-#define MICROLANE_INSTANTIATE(T)                                                               \
-  template void Eval(std::size_t, const DirectionsOf<T>&, const DirectionsOf<T>&,              \
-                     const DielectricParametersOf<T>&, T*, Accuracy, Transport, JointMasking); \
-  template void EvalReflection(std::size_t, const DirectionsOf<T>&, const DirectionsOf<T>&,    \
-                               const DielectricParametersOf<T>&, T*, Accuracy);                \
-  template void EvalTransmission(std::size_t, const DirectionsOf<T>&, const DirectionsOf<T>&,  \
-                                 const DielectricParametersOf<T>&, T*, Accuracy, Transport);   \
-  template void Pdf(std::size_t, const DirectionsOf<T>&, const DirectionsOf<T>&,               \
-                    const DielectricParametersOf<T>&, T*, Accuracy);                           \
-  template void EvalPdf(std::size_t, const DirectionsOf<T>&, const DirectionsOf<T>&,           \
-                        const DielectricParametersOf<T>&, T*, T*, Accuracy, Transport);        \
-  template void Sample(std::size_t, const DirectionsOf<T>&, const T*, const T*, const T*,      \
-                       const DielectricParametersOf<T>&, const DielectricSamples<T>&, Accuracy, Transport);
-MICROLANE_INSTANTIATE(float)
-MICROLANE_INSTANTIATE(double)
-#undef MICROLANE_INSTANTIATE
-
-}  // namespace rough_dielectric_beckmann
+template class RoughDielectricLanes<Normals::kBeckmann, float>;
+template class RoughDielectricLanes<Normals::kBeckmann, double>;
 
 }  // namespace microlane
 #endif  // HWY_ONCE

@@ -1,6 +1,9 @@
-// Builds the calls of the rough dielectric's public functions. Includes no Highway.
+// The rough dielectric's public functions. Includes no Highway.
 #ifndef MICROLANE_SRC_ROUGH_DIELECTRIC_CALL_H_
 #define MICROLANE_SRC_ROUGH_DIELECTRIC_CALL_H_
+
+#include <cstddef>
+#include <string_view>
 
 #include "microlane/rough_dielectric.h"
 #include "src/dispatch.h"
@@ -16,23 +19,148 @@ void AddSurface(const PhongDielectricParameters<T>& surface, CallBuilder<T>& cal
   call.In(surface.exponent).In(surface.eta);
 }
 
-// The arguments must outlive the call.
-template <class T, class Surface>
-CallBuilder<T> DirectionPairCall(const Directions<T>& wi, const Directions<T>& wo, const Surface& surface) {
-  CallBuilder<T> call;
-  call.In(wi).In(wo);
-  AddSurface(surface, call);
-  return call;
+// What the calls of one distribution have in common. The arguments must outlive it.
+template <Normals kNormals, class T>
+class RoughDielectricCall {
+ public:
+  using What = DielectricQuantity::What;
+  using Surface = DielectricParametersOf<kNormals, T>;
+
+  RoughDielectricCall(const Directions<T>& wi, const Directions<T>& wo, const Surface& surface) {
+    call_.In(wi).In(wo);
+    AddSurface(surface, call_);
+  }
+  // u3 may be null.
+  RoughDielectricCall(const Directions<T>& wi, const T* u1, const T* u2, const T* u3, const Surface& surface,
+                      const DielectricSamples<T>& samples) {
+    call_.In(wi).In(u1).In(u2);
+    if (u3 != nullptr) call_.In(u3);
+    AddSurface(surface, call_);
+    call_.Out(samples.wo).Out(samples.weight).Out(samples.pdf).Out(samples.lobe);
+  }
+
+  RoughDielectricCall& Out(T* lanes) {
+    call_.Out(lanes);
+    return *this;
+  }
+  RoughDielectricCall& With(Transport transport) {
+    call_.With(transport);
+    return *this;
+  }
+
+  template <What kWhat, bool kReflects, bool kTransmits>
+  void Run(JointMasking masking, Accuracy accuracy, std::size_t n) const {
+    constexpr std::string_view correlated = Id(kWhat, kReflects, kTransmits, false);
+    constexpr std::string_view separable = Id(kWhat, kReflects, kTransmits, kWhat != What::kPdf);
+    call_.Run(RoughDielectricTable<kNormals>(), masking == JointMasking::kSeparable ? separable : correlated,
+              accuracy, n);
+  }
+
+ private:
+  static constexpr std::string_view Id(What what, bool reflects, bool transmits, bool separable) {
+    return kKernels[DielectricKernel(kNormals, FindDielectricQuantity(what, reflects, transmits, separable))]
+        .id;
+  }
+
+  CallBuilder<T> call_;
+};
+
+template <Normals kNormals, class T>
+void RoughDielectricLanes<kNormals, T>::Eval(std::size_t n, const Directions<T>& wi, const Directions<T>& wo,
+                                             const Surface& surface, T* f_cos, Accuracy accuracy,
+                                             Transport transport, JointMasking masking) {
+  RoughDielectricCall<kNormals, T>(wi, wo, surface)
+      .Out(f_cos)
+      .With(transport)
+      .template Run<DielectricQuantity::kEval, true, true>(masking, accuracy, n);
 }
 
-template <class T, class Surface>
-CallBuilder<T> SampleCall(const Directions<T>& wi, const T* u1, const T* u2, const T* u3,
-                          const Surface& surface, const DielectricSamples<T>& samples) {
-  CallBuilder<T> call;
-  call.In(wi).In(u1).In(u2).In(u3);
-  AddSurface(surface, call);
-  call.Out(samples.wo).Out(samples.weight).Out(samples.pdf).Out(samples.lobe);
-  return call;
+template <Normals kNormals, class T>
+void RoughDielectricLanes<kNormals, T>::EvalReflection(std::size_t n, const Directions<T>& wi,
+                                                       const Directions<T>& wo, const Surface& surface,
+                                                       T* f_cos, Accuracy accuracy, JointMasking masking) {
+  RoughDielectricCall<kNormals, T>(wi, wo, surface)
+      .Out(f_cos)
+      .template Run<DielectricQuantity::kEval, true, false>(masking, accuracy, n);
+}
+
+template <Normals kNormals, class T>
+void RoughDielectricLanes<kNormals, T>::EvalTransmission(std::size_t n, const Directions<T>& wi,
+                                                         const Directions<T>& wo, const Surface& surface,
+                                                         T* f_cos, Accuracy accuracy, Transport transport,
+                                                         JointMasking masking) {
+  RoughDielectricCall<kNormals, T>(wi, wo, surface)
+      .Out(f_cos)
+      .With(transport)
+      .template Run<DielectricQuantity::kEval, false, true>(masking, accuracy, n);
+}
+
+template <Normals kNormals, class T>
+void RoughDielectricLanes<kNormals, T>::Pdf(std::size_t n, const Directions<T>& wi, const Directions<T>& wo,
+                                            const Surface& surface, T* pdf, Accuracy accuracy) {
+  RoughDielectricCall<kNormals, T>(wi, wo, surface)
+      .Out(pdf)
+      .template Run<DielectricQuantity::kPdf, true, true>(JointMasking::kHeightCorrelated, accuracy, n);
+}
+
+template <Normals kNormals, class T>
+void RoughDielectricLanes<kNormals, T>::PdfReflection(std::size_t n, const Directions<T>& wi,
+                                                      const Directions<T>& wo, const Surface& surface, T* pdf,
+                                                      Accuracy accuracy) {
+  RoughDielectricCall<kNormals, T>(wi, wo, surface)
+      .Out(pdf)
+      .template Run<DielectricQuantity::kPdf, true, false>(JointMasking::kHeightCorrelated, accuracy, n);
+}
+
+template <Normals kNormals, class T>
+void RoughDielectricLanes<kNormals, T>::PdfTransmission(std::size_t n, const Directions<T>& wi,
+                                                        const Directions<T>& wo, const Surface& surface,
+                                                        T* pdf, Accuracy accuracy) {
+  RoughDielectricCall<kNormals, T>(wi, wo, surface)
+      .Out(pdf)
+      .template Run<DielectricQuantity::kPdf, false, true>(JointMasking::kHeightCorrelated, accuracy, n);
+}
+
+template <Normals kNormals, class T>
+void RoughDielectricLanes<kNormals, T>::EvalPdf(std::size_t n, const Directions<T>& wi,
+                                                const Directions<T>& wo, const Surface& surface, T* f_cos,
+                                                T* pdf, Accuracy accuracy, Transport transport,
+                                                JointMasking masking) {
+  RoughDielectricCall<kNormals, T>(wi, wo, surface)
+      .Out(f_cos)
+      .Out(pdf)
+      .With(transport)
+      .template Run<DielectricQuantity::kEvalPdf, true, true>(masking, accuracy, n);
+}
+
+template <Normals kNormals, class T>
+void RoughDielectricLanes<kNormals, T>::Sample(std::size_t n, const Directions<T>& wi, const T* u1,
+                                               const T* u2, const T* u3, const Surface& surface,
+                                               const DielectricSamples<T>& samples, Accuracy accuracy,
+                                               Transport transport, JointMasking masking) {
+  RoughDielectricCall<kNormals, T>(wi, u1, u2, u3, surface, samples)
+      .With(transport)
+      .template Run<DielectricQuantity::kSample, true, true>(masking, accuracy, n);
+}
+
+template <Normals kNormals, class T>
+void RoughDielectricLanes<kNormals, T>::SampleReflection(std::size_t n, const Directions<T>& wi, const T* u1,
+                                                         const T* u2, const Surface& surface,
+                                                         const DielectricSamples<T>& samples,
+                                                         Accuracy accuracy, JointMasking masking) {
+  RoughDielectricCall<kNormals, T>(wi, u1, u2, nullptr, surface, samples)
+      .template Run<DielectricQuantity::kSample, true, false>(masking, accuracy, n);
+}
+
+template <Normals kNormals, class T>
+void RoughDielectricLanes<kNormals, T>::SampleTransmission(std::size_t n, const Directions<T>& wi,
+                                                           const T* u1, const T* u2, const Surface& surface,
+                                                           const DielectricSamples<T>& samples,
+                                                           Accuracy accuracy, Transport transport,
+                                                           JointMasking masking) {
+  RoughDielectricCall<kNormals, T>(wi, u1, u2, nullptr, surface, samples)
+      .With(transport)
+      .template Run<DielectricQuantity::kSample, false, true>(masking, accuracy, n);
 }
 
 }  // namespace microlane

@@ -3,6 +3,7 @@
 #include <array>
 #include <limits>
 #include <string_view>
+#include <utility>
 
 #include "oracle/beckmann.h"
 #include "oracle/fresnel.h"
@@ -75,43 +76,35 @@ void SampleNormal(Call& call) {
   StoreNormal(M::Make(call.in + 2), call);
 }
 
-template <class M>
-auto MakeBsdf(const Call& call, Masking masking) {
-  const Real* parameters = call.in + 6;
+// The rough dielectric by its place in kDielectricQuantities.
+template <class M, std::size_t kQuantity>
+void Dielectric(Call& call) {
+  constexpr DielectricQuantity row = kDielectricQuantities[kQuantity];
+  constexpr int lobes = (row.reflects ? kReflection : 0) | (row.transmits ? kTransmission : 0);
+  constexpr bool one_lobe_sampled = row.what == DielectricQuantity::kSample && !row.HasBothLobes();
+  const Real* const parameters = call.in + (one_lobe_sampled ? 5 : 6);
   using Distribution = decltype(M::Make(parameters));
-  return RoughDielectric<Distribution>{M::Make(parameters), parameters[M::kParameters], masking,
-                                       call.transport};
-}
-
-template <class M, Masking kMasking, int kLobes>
-void Eval(Call& call) {
-  call.out[0] = MakeBsdf<M>(call, kMasking).EvalCos(Direction(call.in), Direction(call.in + 3), kLobes);
-}
-
-template <class M, int kLobes>
-void Pdf(Call& call) {
-  call.out[0] =
-      MakeBsdf<M>(call, Masking::kCorrelated).Pdf(Direction(call.in), Direction(call.in + 3), kLobes);
-}
-
-template <class M, Masking kMasking>
-void EvalPdf(Call& call) {
-  Eval<M, kMasking, kBoth>(call);
-  call.out[1] = MakeBsdf<M>(call, kMasking).Pdf(Direction(call.in), Direction(call.in + 3), kBoth);
-}
-
-template <class M, Masking kMasking>
-void Sample(Call& call) {
-  const DirectionSample sample =
-      MakeBsdf<M>(call, kMasking)
-          .Sample(Direction(call.in), call.in[3], call.in[4], call.in[5], call.lobe_hint);
-  Store(sample.wo, call.out);
-  call.out[3] = sample.weight;
-  call.out[4] = sample.pdf;
-  call.out[5] = sample.lobe;
-  call.kappa = sample.kappa;
-  call.direction_kappa = sample.direction_kappa;
-  call.margin = sample.margin;
+  const RoughDielectric<Distribution> bsdf{M::Make(parameters), parameters[M::kParameters],
+                                           row.separable ? Masking::kSeparable : Masking::kCorrelated,
+                                           call.transport};
+  const Vec wi = Direction(call.in);
+  if constexpr (row.what == DielectricQuantity::kSample) {
+    const DirectionSample sample = bsdf.Sample(
+        wi, call.in[3], call.in[4], one_lobe_sampled ? Real(0) : call.in[5], lobes, call.lobe_hint);
+    Store(sample.wo, call.out);
+    call.out[3] = sample.weight;
+    call.out[4] = sample.pdf;
+    call.out[5] = sample.lobe;
+    call.kappa = sample.kappa;
+    call.direction_kappa = sample.direction_kappa;
+    call.margin = sample.margin;
+  } else {
+    const Vec wo = Direction(call.in + 3);
+    if constexpr (row.HasValue()) call.out[0] = bsdf.EvalCos(wi, wo, lobes);
+    if constexpr (row.what != DielectricQuantity::kEval) {
+      call.out[row.HasValue() ? 1 : 0] = bsdf.Pdf(wi, wo, lobes);
+    }
+  }
 }
 
 struct Entry {
@@ -124,8 +117,6 @@ using GgxIsotropic = Maker<Ggx, Roughnesses::kIsotropic>;
 using BeckmannXy = Maker<Beckmann>;
 using BeckmannIsotropic = Maker<Beckmann, Roughnesses::kIsotropic>;
 using PhongExp = Maker<Phong>;
-constexpr Masking kCorrelated = Masking::kCorrelated;
-constexpr Masking kSeparable = Masking::kSeparable;
 
 constexpr Entry kEntries[] = {
     {"math.exp", [](Call& call) { call.out[0] = exp(call.in[0]); }},
@@ -198,36 +189,6 @@ constexpr Entry kEntries[] = {
     {"reflect", [](Call& call) { Store(Reflect(Direction(call.in), Direction(call.in + 3)), call.out); }},
     {"refract",
      [](Call& call) { Store(Refract(Direction(call.in), Direction(call.in + 3), call.in[6]), call.out); }},
-
-    {"rough_dielectric.eval", Eval<GgxXy, kCorrelated, kBoth>},
-    {"rough_dielectric.eval_reflection", Eval<GgxXy, kCorrelated, kReflection>},
-    {"rough_dielectric.eval_transmission", Eval<GgxXy, kCorrelated, kTransmission>},
-    {"rough_dielectric.eval_separable", Eval<GgxXy, kSeparable, kBoth>},
-    {"rough_dielectric.eval_reflection_separable", Eval<GgxXy, kSeparable, kReflection>},
-    {"rough_dielectric.eval_transmission_separable", Eval<GgxXy, kSeparable, kTransmission>},
-    {"rough_dielectric.pdf", Pdf<GgxXy, kBoth>},
-    {"rough_dielectric.pdf_reflection", Pdf<GgxXy, kReflection>},
-    {"rough_dielectric.pdf_transmission", Pdf<GgxXy, kTransmission>},
-    {"rough_dielectric.eval_pdf", EvalPdf<GgxXy, kCorrelated>},
-    {"rough_dielectric.eval_pdf_separable", EvalPdf<GgxXy, kSeparable>},
-    {"rough_dielectric.sample", Sample<GgxXy, kCorrelated>},
-    {"rough_dielectric.sample_separable", Sample<GgxXy, kSeparable>},
-
-    {"rough_dielectric_beckmann.eval", Eval<BeckmannXy, kCorrelated, kBoth>},
-    {"rough_dielectric_beckmann.eval_separable", Eval<BeckmannXy, kSeparable, kBoth>},
-    {"rough_dielectric_beckmann.eval_reflection", Eval<BeckmannXy, kCorrelated, kReflection>},
-    {"rough_dielectric_beckmann.eval_transmission", Eval<BeckmannXy, kCorrelated, kTransmission>},
-    {"rough_dielectric_beckmann.pdf", Pdf<BeckmannXy, kBoth>},
-    {"rough_dielectric_beckmann.eval_pdf", EvalPdf<BeckmannXy, kCorrelated>},
-    {"rough_dielectric_beckmann.sample", Sample<BeckmannXy, kCorrelated>},
-
-    {"rough_dielectric_phong.eval", Eval<PhongExp, kCorrelated, kBoth>},
-    {"rough_dielectric_phong.eval_separable", Eval<PhongExp, kSeparable, kBoth>},
-    {"rough_dielectric_phong.eval_reflection", Eval<PhongExp, kCorrelated, kReflection>},
-    {"rough_dielectric_phong.eval_transmission", Eval<PhongExp, kCorrelated, kTransmission>},
-    {"rough_dielectric_phong.pdf", Pdf<PhongExp, kBoth>},
-    {"rough_dielectric_phong.eval_pdf", EvalPdf<PhongExp, kCorrelated>},
-    {"rough_dielectric_phong.sample", Sample<PhongExp, kCorrelated>},
 };
 
 struct Resolved {
@@ -236,6 +197,12 @@ struct Resolved {
   std::size_t num_outputs = 0;
   Metric metric[kMaxOutputs] = {};
 };
+
+template <class M, std::size_t... kQuantity>
+constexpr void AddDielectrics(std::array<Resolved, kNumKernels>& table, Normals normals,
+                              std::index_sequence<kQuantity...>) {
+  ((table[DielectricKernel(normals, kQuantity)].function = Dielectric<M, kQuantity>), ...);
+}
 
 constexpr std::array<Resolved, kNumKernels> Resolve() {
   std::array<Resolved, kNumKernels> table{};
@@ -249,6 +216,10 @@ constexpr std::array<Resolved, kNumKernels> Resolve() {
       if (entry.id == kKernels[k].id) table[k].function = entry.function;
     }
   }
+  constexpr auto quantities = std::make_index_sequence<kNumDielectricQuantities>();
+  AddDielectrics<GgxXy>(table, Normals::kGgx, quantities);
+  AddDielectrics<BeckmannXy>(table, Normals::kBeckmann, quantities);
+  AddDielectrics<PhongExp>(table, Normals::kPhong, quantities);
   return table;
 }
 

@@ -94,9 +94,10 @@ struct RoughDielectric {
     return pdf;
   }
 
-  // Walter 2007, section 5.3. A lobe_hint >= 0 takes that lobe whatever the decisions would be; margin
-  // is still that of the decisions.
-  DirectionSample Sample(const Vec& wi, const Real& u1, const Real& u2, const Real& u3, int lobe_hint) const {
+  // Walter 2007, section 5.3; of one lobe, u3 decides nothing and the weight carries F or 1 - F. A lobe_hint
+  // >= 0 takes that lobe whatever the decisions would be; margin is still that of the decisions.
+  DirectionSample Sample(const Vec& wi, const Real& u1, const Real& u2, const Real& u3, int lobes,
+                         int lobe_hint) const {
     DirectionSample sample;
     if (wi.z == 0) return sample;
     const int sign = Sign(wi.z);
@@ -107,9 +108,11 @@ struct RoughDielectric {
     const Real F = FresnelDielectric(c, eta);
     Real radicand = RefractionRadicand(c, eta);
 
-    sample.margin = std::min(ToDouble(abs(c)), ToDouble(abs(radicand)));
+    sample.margin = ToDouble(abs(c));
+    if ((lobes & kTransmission) != 0) sample.margin = std::min(sample.margin, ToDouble(abs(radicand)));
     const Real g2 = eta * eta * radicand;
-    if (radicand < 0) radicand = 0;
+    const bool total = radicand <= 0;
+    if (total) radicand = 0;
     const Real cos_t = sqrt(radicand);
     const auto scatter = [&](int lobe) {
       return lobe == kReflection ? Reflect(wi, facing) : Refract(wi, facing, eta, c, 1, radicand);
@@ -118,12 +121,15 @@ struct RoughDielectric {
     int lobe = kNone;
     Vec wo{0, 0, 0};
     if (c > 0) {
-      lobe = u3 < F ? kReflection : kTransmission;
+      lobe = lobes != kBoth ? lobes : u3 < F ? kReflection : kTransmission;
       wo = scatter(lobe);
-      sample.margin =
-          std::min({sample.margin, ToDouble(abs(u3 - F)) / (1 + FresnelSlope(ToDouble(c), ToDouble(cos_t))),
-                    ToDouble(abs(wo.z)) / (1 + (lobe == kReflection ? 0 : RefractionSlope(c, cos_t)))});
-      const bool valid = lobe == kReflection ? sign * wo.z > 0 : sign * wo.z < 0;
+      if (lobes == kBoth) {
+        sample.margin =
+            std::min(sample.margin, ToDouble(abs(u3 - F)) / (1 + FresnelSlope(ToDouble(c), ToDouble(cos_t))));
+      }
+      sample.margin = std::min(
+          sample.margin, ToDouble(abs(wo.z)) / (1 + (lobe == kReflection ? 0 : RefractionSlope(c, cos_t))));
+      const bool valid = lobe == kReflection ? sign * wo.z > 0 : sign * wo.z < 0 && !total;
       if (!valid) lobe = kNone;
     }
     if (lobe_hint >= 0 && lobe_hint != lobe) {
@@ -137,12 +143,14 @@ struct RoughDielectric {
     sample.weight = c * G2(wi, wo) / (abs(wi.z) * m.z);
     sample.pdf = distribution.D(m) * m.z;
     sample.kappa = (1 + 1 / abs(c)) * (1 + c * c / abs(g2)) * (1 + 1 / abs(wo.z));
+    (lobes == kBoth ? sample.pdf : sample.weight) *= lobe == kReflection ? F : Real(1 - F);
     if (lobe == kReflection) {
-      sample.pdf *= F * ReflectionJacobian(c);
+      sample.pdf *= ReflectionJacobian(c);
     } else {
-      sample.pdf *= (1 - F) * RefractionJacobian(c, -cos_t, eta);
+      sample.pdf *= RefractionJacobian(c, -cos_t, eta);
       sample.direction_kappa = 1 + c / sqrt(abs(g2));
-      if (g2 <= 0) sample.kappa = sample.direction_kappa = std::numeric_limits<Real>::infinity();  // only by a hint
+      if (g2 <= 0)
+        sample.kappa = sample.direction_kappa = std::numeric_limits<Real>::infinity();  // only by a hint
       // Without an interface every facet refracts straight on: the density is a delta.
       if (eta == 1) sample.pdf = std::numeric_limits<Real>::infinity();
       if (transport == Transport::kImportance) sample.weight /= eta * eta;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <string_view>
+#include <utility>
 
 #include "microlane/kernel_list.h"
 #include "microlane/scalar/beckmann.h"
@@ -66,7 +67,7 @@ struct PhongExponentOnly {
 };
 
 template <class Real, template <class> class Parameters>
-struct Normals {
+struct NormalKernels {
   static void D(const Real* in, Real* out, Transport) { out[0] = Parameters<Real>::Make(in + 3).D(Load(in)); }
   static void Lambda(const Real* in, Real* out, Transport) {
     out[0] = scalar::Lambda(Parameters<Real>::Make(in + 3), Load(in));
@@ -85,31 +86,34 @@ RoughDielectric<Distribution, Real, masking> MakeDielectric(const Distribution<R
   return {distribution, eta, transport};
 }
 
-template <class Real, template <class> class Parameters, Masking masking>
+// The rough dielectric by its place in kDielectricQuantities.
+template <class Real, template <class> class Parameters, std::size_t kQuantity>
 struct Dielectric {
-  static auto Make(const Real* in, Transport transport) {
-    using P = Parameters<Real>;
-    return MakeDielectric<masking>(P::Make(in + 6), in[6 + P::kParameters], transport);
-  }
-  template <Lobes lobes>
-  static void Eval(const Real* in, Real* out, Transport transport) {
-    out[0] = Make(in, transport).Eval(Load(in), Load(in + 3), lobes);
-  }
-  template <Lobes lobes>
-  static void Pdf(const Real* in, Real* out, Transport transport) {
-    out[0] = Make(in, transport).Pdf(Load(in), Load(in + 3), lobes);
-  }
-  static void EvalPdf(const Real* in, Real* out, Transport transport) {
-    const auto value = Make(in, transport).EvalAndPdf(Load(in), Load(in + 3));
-    out[0] = value.f_cos;
-    out[1] = value.pdf;
-  }
-  static void Sample(const Real* in, Real* out, Transport transport) {
-    const auto sample = Make(in, transport).Sample(Load(in), in[3], in[4], in[5]);
-    Store(sample.wo, out);
-    out[3] = sample.weight;
-    out[4] = sample.pdf;
-    out[5] = IsNan(sample.weight) ? sample.weight : static_cast<Real>(static_cast<unsigned>(sample.lobe));
+  static constexpr DielectricQuantity kRow = kDielectricQuantities[kQuantity];
+  static constexpr Lobes kLobes =
+      static_cast<Lobes>((kRow.reflects ? kReflection : 0U) | (kRow.transmits ? kTransmission : 0U));
+
+  static void Run(const Real* in, Real* out, Transport transport) {
+    constexpr Masking masking = kRow.separable ? Masking::kSeparable : Masking::kHeightCorrelated;
+    constexpr bool one_lobe_sampled = kRow.what == DielectricQuantity::kSample && !kRow.HasBothLobes();
+    const Real* const parameters = in + (one_lobe_sampled ? 5 : 6);
+    const auto dielectric = MakeDielectric<masking>(Parameters<Real>::Make(parameters),
+                                                    parameters[Parameters<Real>::kParameters], transport);
+    if constexpr (kRow.what == DielectricQuantity::kEval) {
+      out[0] = dielectric.Eval(Load(in), Load(in + 3), kLobes);
+    } else if constexpr (kRow.what == DielectricQuantity::kPdf) {
+      out[0] = dielectric.Pdf(Load(in), Load(in + 3), kLobes);
+    } else if constexpr (kRow.what == DielectricQuantity::kEvalPdf) {
+      const auto value = dielectric.EvalAndPdf(Load(in), Load(in + 3));
+      out[0] = value.f_cos;
+      out[1] = value.pdf;
+    } else {
+      const auto sample = dielectric.Sample(Load(in), in[3], in[4], one_lobe_sampled ? 0 : in[5], kLobes);
+      Store(sample.wo, out);
+      out[3] = sample.weight;
+      out[4] = sample.pdf;
+      out[5] = IsNan(sample.weight) ? sample.weight : static_cast<Real>(static_cast<unsigned>(sample.lobe));
+    }
   }
 };
 
@@ -121,17 +125,11 @@ struct Entry {
 
 template <class Real>
 constexpr auto Entries() {
-  using GgxNormals = Normals<Real, GgxXy>;
-  using GgxIsotropicNormals = Normals<Real, GgxIsotropic>;
-  using BeckmannNormals = Normals<Real, BeckmannXy>;
-  using BeckmannIsotropicNormals = Normals<Real, BeckmannIsotropic>;
-  using PhongNormals = Normals<Real, PhongExponentOnly>;
-  using GgxCorrelated = Dielectric<Real, GgxXy, Masking::kHeightCorrelated>;
-  using GgxSeparable = Dielectric<Real, GgxXy, Masking::kSeparable>;
-  using BeckmannCorrelated = Dielectric<Real, BeckmannXy, Masking::kHeightCorrelated>;
-  using BeckmannSeparable = Dielectric<Real, BeckmannXy, Masking::kSeparable>;
-  using PhongCorrelated = Dielectric<Real, PhongExponentOnly, Masking::kHeightCorrelated>;
-  using PhongSeparable = Dielectric<Real, PhongExponentOnly, Masking::kSeparable>;
+  using GgxNormals = NormalKernels<Real, GgxXy>;
+  using GgxIsotropicNormals = NormalKernels<Real, GgxIsotropic>;
+  using BeckmannNormals = NormalKernels<Real, BeckmannXy>;
+  using BeckmannIsotropicNormals = NormalKernels<Real, BeckmannIsotropic>;
+  using PhongNormals = NormalKernels<Real, PhongExponentOnly>;
   using Fresnel = FresnelDielectric<Real>;
   return std::array{
       Entry<Real>{"math.exp", [](const Real* in, Real* out, Transport) { out[0] = Exp(in[0]); }},
@@ -226,39 +224,13 @@ constexpr auto Entries() {
                     const Vec3<Real> wi = Load(in);
                     Store(Narrow<Real>(Refract(Widen(wi), Widen(Load(in + 3)), W(in[6]), W(Side(wi)))), out);
                   }},
-
-      Entry<Real>{"rough_dielectric.eval", GgxCorrelated::template Eval<kBothLobes>},
-      Entry<Real>{"rough_dielectric.eval_reflection", GgxCorrelated::template Eval<kReflection>},
-      Entry<Real>{"rough_dielectric.eval_transmission", GgxCorrelated::template Eval<kTransmission>},
-      Entry<Real>{"rough_dielectric.eval_separable", GgxSeparable::template Eval<kBothLobes>},
-      Entry<Real>{"rough_dielectric.eval_reflection_separable", GgxSeparable::template Eval<kReflection>},
-      Entry<Real>{"rough_dielectric.eval_transmission_separable", GgxSeparable::template Eval<kTransmission>},
-      Entry<Real>{"rough_dielectric.pdf", GgxCorrelated::template Pdf<kBothLobes>},
-      Entry<Real>{"rough_dielectric.pdf_reflection", GgxCorrelated::template Pdf<kReflection>},
-      Entry<Real>{"rough_dielectric.pdf_transmission", GgxCorrelated::template Pdf<kTransmission>},
-      Entry<Real>{"rough_dielectric.eval_pdf", GgxCorrelated::EvalPdf},
-      Entry<Real>{"rough_dielectric.eval_pdf_separable", GgxSeparable::EvalPdf},
-      Entry<Real>{"rough_dielectric.sample", GgxCorrelated::Sample},
-      Entry<Real>{"rough_dielectric.sample_separable", GgxSeparable::Sample},
-
-      Entry<Real>{"rough_dielectric_beckmann.eval", BeckmannCorrelated::template Eval<kBothLobes>},
-      Entry<Real>{"rough_dielectric_beckmann.eval_separable", BeckmannSeparable::template Eval<kBothLobes>},
-      Entry<Real>{"rough_dielectric_beckmann.eval_reflection",
-                  BeckmannCorrelated::template Eval<kReflection>},
-      Entry<Real>{"rough_dielectric_beckmann.eval_transmission",
-                  BeckmannCorrelated::template Eval<kTransmission>},
-      Entry<Real>{"rough_dielectric_beckmann.pdf", BeckmannCorrelated::template Pdf<kBothLobes>},
-      Entry<Real>{"rough_dielectric_beckmann.eval_pdf", BeckmannCorrelated::EvalPdf},
-      Entry<Real>{"rough_dielectric_beckmann.sample", BeckmannCorrelated::Sample},
-
-      Entry<Real>{"rough_dielectric_phong.eval", PhongCorrelated::template Eval<kBothLobes>},
-      Entry<Real>{"rough_dielectric_phong.eval_separable", PhongSeparable::template Eval<kBothLobes>},
-      Entry<Real>{"rough_dielectric_phong.eval_reflection", PhongCorrelated::template Eval<kReflection>},
-      Entry<Real>{"rough_dielectric_phong.eval_transmission", PhongCorrelated::template Eval<kTransmission>},
-      Entry<Real>{"rough_dielectric_phong.pdf", PhongCorrelated::template Pdf<kBothLobes>},
-      Entry<Real>{"rough_dielectric_phong.eval_pdf", PhongCorrelated::EvalPdf},
-      Entry<Real>{"rough_dielectric_phong.sample", PhongCorrelated::Sample},
   };
+}
+
+template <class Real, template <class> class Parameters, std::size_t... kQuantity>
+constexpr void AddDielectrics(std::array<Function<Real>, kNumKernels>& table, Normals normals,
+                              std::index_sequence<kQuantity...>) {
+  ((table[DielectricKernel(normals, kQuantity)] = Dielectric<Real, Parameters, kQuantity>::Run), ...);
 }
 
 // Functions in the order of kKernels; null where the list has an entry that this file has not.
@@ -266,6 +238,10 @@ template <class Real>
 constexpr std::array<Function<Real>, kNumKernels> Resolve() {
   std::array<Function<Real>, kNumKernels> table{};
   for (const Entry<Real>& entry : Entries<Real>()) table[KernelIndex(entry.id)] = entry.function;
+  constexpr auto quantities = std::make_index_sequence<kNumDielectricQuantities>();
+  AddDielectrics<Real, GgxXy>(table, Normals::kGgx, quantities);
+  AddDielectrics<Real, BeckmannXy>(table, Normals::kBeckmann, quantities);
+  AddDielectrics<Real, PhongExponentOnly>(table, Normals::kPhong, quantities);
   return table;
 }
 

@@ -87,9 +87,11 @@ struct RoughDielectric {
     return {Eval(wi, wo, facet, kBothLobes), Pdf(wi, wo, facet, kBothLobes)};
   }
 
-  // Walter 2007 section 5.3. The normal and the direction are found in double at least: near the critical
-  // angle, refraction magnifies a rounding of m by c/g.
-  DirectionSample<Real> Sample(const Vec3<Real>& wi, Real u1, Real u2, Real u3) const {
+  // Walter 2007 section 5.3; with one lobe wanted, u3 has no effect and the weight carries F or 1 - F. The
+  // normal and the direction are found in double at least: near the critical angle, refraction magnifies a
+  // rounding of m by c/g.
+  DirectionSample<Real> Sample(const Vec3<Real>& wi, Real u1, Real u2, Real u3,
+                               Lobes wanted = kBothLobes) const {
     using W = Wide<Real>;
     constexpr DirectionSample<Real> none{{0, 0, 0}, 0, 0, kNoLobe};
     if (AnyNan(wi, u1, u2, u3, distribution, eta)) {
@@ -105,8 +107,9 @@ struct RoughDielectric {
     if (!(c > W(0))) return none;
 
     const FresnelDielectric<Real> fresnel(c * c, eta);
-    const Lobes lobe = u3 < fresnel.Reflectance() ? kReflection : kTransmission;
-    if (lobe == kTransmission && fresnel.total_internal_reflection()) return none;
+    const bool chooses = wanted == kBothLobes;
+    const Lobes lobe = !chooses ? wanted : u3 < fresnel.Reflectance() ? kReflection : kTransmission;
+    if (lobe == kTransmission && (fresnel.total_internal_reflection() || fresnel.g() == 0)) return none;
     const Vec3<W> wo = lobe == kReflection ? Reflect(wide_wi, m) : Refract(wide_wi, m, W(eta), W(1));
     const W along = lobe == kReflection ? side * wo.z : -side * wo.z;
     if (!(along > W(0))) return none;
@@ -114,11 +117,12 @@ struct RoughDielectric {
     DirectionSample<Real> sample{Narrow<Real>(wo), 0, 0, lobe};
     const double cos_i = Narrow<double>(c);
     const double g2_over_cos = G2OverCos<masking>(distribution, wi, sample.wo);
+    const double share = lobe == kReflection ? fresnel.Reflectance() : fresnel.Transmittance();
     // Walter 2007 Eq. 41.
-    double weight = cos_i * g2_over_cos / normal.m.z;
+    double weight = cos_i * g2_over_cos / normal.m.z * (chooses ? 1 : share);
     if (lobe == kTransmission && transport == Transport::kImportance) weight /= double{eta} * eta;
     sample.weight = Saturate<Real>(weight);
-    sample.pdf = Saturate<Real>(SampledPdf(normal.pdf, lobe, cos_i, fresnel));
+    sample.pdf = Saturate<Real>(SampledPdf((chooses ? share : 1) * normal.pdf, lobe, cos_i, fresnel));
     return sample;
   }
 
@@ -160,8 +164,8 @@ struct RoughDielectric {
   // eta g/(c - g)^2 = eta g ((c + g)/k)^2, largest finite at eta = 1.
   double SampledPdf(double normal_pdf, Lobes lobe, double c, const FresnelDielectric<Real>& fresnel) const {
     if (normal_pdf == 0) return 0;
-    if (lobe == kReflection) return fresnel.Reflectance() * normal_pdf / (4 * c);
-    return fresnel.Transmittance() * normal_pdf * eta * fresnel.g() * Square((c + fresnel.g()) / fresnel.k());
+    if (lobe == kReflection) return normal_pdf / (4 * c);
+    return normal_pdf * eta * fresnel.g() * Square((c + fresnel.g()) / fresnel.k());
   }
 };
 
