@@ -106,9 +106,14 @@ HWY_INLINE void NormalFromSlopes(D d, Vec<D>& mx, Vec<D>& my, Vec<D>& mz, Vec<D>
   const Vec<D> x = hn::Mul(hn::Mul(alpha_x, cos), r);
   const Vec<D> y = hn::Mul(hn::Mul(alpha_y, sin), r);
   const Vec<D> length2 = Dot(x, y, z, x, y, z);
-  // One division: 1/|.| and |.|^3 / area from 1/(|.| area).
-  const Vec<D> both = Reciprocal<A>(d, hn::Mul(SqrtOfPositive<A>(d, length2), area));
-  const Vec<D> inverse = hn::Mul(both, area);
+  Vec<D> both, inverse;  // 1/(|.| area), 1/|.|
+  if constexpr (A == Accuracy::kFast) {
+    inverse = FastReciprocalSqrt(d, length2);
+    both = hn::Mul(inverse, FastReciprocal(d, area));
+  } else {
+    both = hn::Div(Const(d, 1), hn::Mul(hn::Sqrt(length2), area));
+    inverse = hn::Mul(both, area);
+  }
   pdf = hn::Mul(hn::Mul(length2, both), length2);
   mx = hn::Mul(x, inverse);
   my = hn::Mul(y, inverse);

@@ -421,22 +421,13 @@ HWY_INLINE void RoughDielectric(D d, hn::Mask<D> radiance, Vec<D>& value, Vec<D>
   }
 }
 
-// What belongs to the lobe of each lane.
-template <Lobes kLobes, class M, class V>
-HWY_INLINE V OfLobe(M reflects, V reflection, V transmission) {
-  if constexpr (kLobes == Lobes::kBoth) {
-    return hn::IfThenElse(reflects, reflection, transmission);
-  } else {
-    return kLobes == Lobes::kReflection ? reflection : transmission;
-  }
-}
-
-// Walter 2007 section 5.3: m by Dist's D cos sampling, o by Eq. 39 or 40, the weight by Eq. 41. With both
-// lobes u3 chooses by Fresnel, else it has no effect and the weight carries F or 1 - F.
+// One pass of sampling. `hard` as in RoughDielectricPass.
 template <class Dist, Lobes kLobes, JointMasking kG, Accuracy A, class D, class... P>
-HWY_INLINE void SampleRoughDielectric(D d, hn::Mask<D> radiance, Vec<D>& ox, Vec<D>& oy, Vec<D>& oz,
-                                      Vec<D>& weight, Vec<D>& pdf, Vec<D>& lobe, Vec<D> ix, Vec<D> iy,
-                                      Vec<D> iz_signed, Vec<D> u1, Vec<D> u2, Vec<D> u3, Vec<D> eta, P... p) {
+HWY_INLINE void SampleRoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& ox, Vec<D>& oy, Vec<D>& oz,
+                                          Vec<D>& weight, Vec<D>& pdf, Vec<D>& lobe, hn::Mask<D>& hard,
+                                          Vec<D> ix, Vec<D> iy, Vec<D> iz_signed, Vec<D> u1, Vec<D> u2,
+                                          Vec<D> u3, Vec<D> eta, P... p) {
+  constexpr bool kWide = !kIsFloat<D>;
   const Vec<D> zero = hn::Zero(d), one = Const(d, 1);
   const Vec<D> iz = hn::Abs(iz_signed);
   Vec<D> mx, my, mz, pdf_m;
@@ -446,31 +437,39 @@ HWY_INLINE void SampleRoughDielectric(D d, hn::Mask<D> radiance, Vec<D>& ox, Vec
   my = FlipSign(d, my, iz_signed);
   const Vec<D> c = Dot(ix, iy, iz, mx, my, mz);
   const Vec<D> eta2 = hn::Mul(eta, eta), k = EtaSquaredMinus1(d, eta);
-  Vec<D> g2, unused;
-  InDouble2<GSquaredOp>(d, g2, unused, c, eta);
+  Vec<D> g2 = hn::MulAdd(c, c, k);
+  if constexpr (!kWide) hard = hn::Lt(hn::Min(hn::Abs(g2), hn::Abs(c)), Const(d, 0x1p-12));
   g2 = hn::IfThenElse(hn::Lt(g2, zero), zero, g2);
   const Vec<D> g = Sqrt<A>(d, g2), root = hn::Mul(c, g);
   const Vec<D> s2 = hn::NegMulAdd(c, c, one);
   Vec<D> a, m;
   FresnelTerms<true>(d, a, m, hn::MulAdd(c, c, g2), root, s2);
-  const Vec<D> q = hn::Mul(a, m), r = Reciprocal<A>(d, q), kr = hn::Mul(k, r), m2 = hn::Mul(m, m);
-  const Vec<D> kp = hn::Mul(kr, root), ks = hn::Mul(kr, s2);
+  const Vec<D> q = hn::Mul(a, m), gc = hn::Add(g, c), eta_gc = hn::Mul(eta, gc);
+  Vec<D> r, r_eta;  // 1/q and 1/(eta (g + c))
+  if constexpr (kWide) {
+    r = Reciprocal<A>(d, q);
+    r_eta = Reciprocal<A>(d, eta_gc);
+  } else {
+    const Vec<D> both = Reciprocal<A>(d, hn::Mul(q, eta_gc));
+    r = hn::Mul(both, eta_gc);
+    r_eta = hn::Mul(both, q);
+  }
+  const Vec<D> kr = hn::Mul(k, r), kp = hn::Mul(kr, root), ks = hn::Mul(kr, s2);
   const Vec<D> reflectance = hn::Min(one, hn::MulAdd(kp, kp, hn::Mul(ks, ks)));
   const Vec<D> transmittance =
-      hn::Mul(hn::Mul(hn::Mul(hn::Add(root, root), a), hn::MulAdd(eta, eta, m2)), hn::Mul(r, r));
+      hn::Mul(hn::Mul(hn::Mul(hn::Add(root, root), a), hn::MulAdd(eta, eta, hn::Mul(m, m))), hn::Mul(r, r));
 
-  const auto reflects = hn::Lt(u3, reflectance);
-  const Vec<D> share = OfLobe<kLobes>(reflects, reflectance, transmittance);
+  const auto transmits = hn::Ge(u3, reflectance);
+  const Vec<D> share = OfLobe<kLobes>(transmits, transmittance, reflectance);
   // o = s m - t i: s = 2 c, t = 1, or s = (c - g)/eta = -(eta^2 - 1)/(eta (c + g)), t = 1/eta.
-  const Vec<D> gc = hn::Add(g, c);
-  const Vec<D> r_eta = Reciprocal<A>(d, hn::Mul(eta, gc));
-  const Vec<D> s = OfLobe<kLobes>(reflects, hn::Add(c, c), hn::Neg(hn::Mul(k, r_eta)));
-  const Vec<D> t = OfLobe<kLobes>(reflects, one, hn::Mul(gc, r_eta));
+  const Vec<D> s = OfLobe<kLobes>(transmits, hn::Neg(hn::Mul(k, r_eta)), hn::Add(c, c));
+  const Vec<D> t = OfLobe<kLobes>(transmits, hn::Mul(gc, r_eta), one);
   ox = hn::MulSub(s, mx, hn::Mul(t, ix));
   oy = hn::MulSub(s, my, hn::Mul(t, iy));
   oz = hn::MulSub(s, mz, hn::Mul(t, iz));
   const Vec<D> zo = hn::Abs(oz);
-  const auto wrong_side = hn::Le(OfLobe<kLobes>(reflects, oz, hn::Neg(oz)), zero);
+  if constexpr (!kWide) hard = hn::Or(hard, hn::Lt(zo, Const(d, 0x1p-12)));
+  const auto wrong_side = hn::Le(OfLobe<kLobes>(transmits, hn::Neg(oz), oz), zero);
   auto invalid = hn::Or(hn::Le(hn::Min(c, hn::Min(iz, mz)), zero), wrong_side);
   if constexpr (kLobes == Lobes::kTransmission) invalid = hn::Or(invalid, hn::Le(g2, zero));
 
@@ -479,12 +478,21 @@ HWY_INLINE void SampleRoughDielectric(D d, hn::Mask<D> radiance, Vec<D>& ox, Vec
   const Vec<D> masking = MaskingDenominator<kG>(iz, mu_i, zo, mu_o);
   const Vec<D> numerator = hn::Mul(hn::Mul(Const(d, kMaskingFactor<kG>), zo), c);
   // Radiance takes Eq. 41 as it is; importance loses the eta^2 of transmission.
-  const Vec<D> lobe_factor = OfLobe<kLobes>(reflects, one, hn::IfThenElse(radiance, one, eta2));
-  weight = Div<A>(d, numerator, hn::Mul(hn::Mul(mz, masking), lobe_factor));
+  const Vec<D> lobe_factor = OfLobe<kLobes>(transmits, hn::IfThenElse(radiance, one, eta2), one);
+  const Vec<D> denominator = hn::Mul(hn::Mul(mz, masking), lobe_factor);
   // Jacobians of Eqs. 14 and 17: 1/(4 c), and eta^2 (g/eta) / (c - g)^2 with c - g = -(eta^2 - 1)/(g + c).
-  const Vec<D> jacobian = hn::Div(OfLobe<kLobes>(reflects, one, hn::Mul(hn::Mul(eta, g), hn::Mul(gc, gc))),
-                                  OfLobe<kLobes>(reflects, hn::Mul(Const(d, 4), c), hn::Mul(k, k)));
-  pdf = hn::Mul(pdf_m, jacobian);
+  const Vec<D> jacobian_over = OfLobe<kLobes>(transmits, hn::Mul(hn::Mul(eta, g), hn::Mul(gc, gc)), one);
+  const Vec<D> jacobian_under = OfLobe<kLobes>(transmits, hn::Mul(k, k), hn::Mul(Const(d, 4), c));
+  if constexpr (kWide) {
+    weight = Div<A>(d, numerator, denominator);
+    pdf = hn::Mul(pdf_m, hn::Div(jacobian_over, jacobian_under));
+  } else {
+    const Vec<D> product = hn::Mul(denominator, jacobian_under);
+    hard = hn::Or(hard, OutOfRange(d, hn::Abs(product), 0x1p-90f, 0x1p90f));
+    const Vec<D> both = Reciprocal<A>(d, product);
+    weight = hn::Mul(numerator, hn::Mul(both, jacobian_under));
+    pdf = hn::Mul(hn::Mul(pdf_m, jacobian_over), hn::Mul(both, denominator));
+  }
   if constexpr (kLobes == Lobes::kBoth) {
     pdf = hn::Mul(pdf, share);
   } else {
@@ -495,7 +503,47 @@ HWY_INLINE void SampleRoughDielectric(D d, hn::Mask<D> radiance, Vec<D>& ox, Vec
   ox = ZeroIf(invalid, ox);
   oy = ZeroIf(invalid, oy);
   oz = ZeroIf(invalid, FlipSign(d, oz, iz_signed));
-  lobe = ZeroIf(invalid, OfLobe<kLobes>(reflects, one, Const(d, 2)));
+  lobe = ZeroIf(invalid, OfLobe<kLobes>(transmits, Const(d, 2), one));
+}
+
+// SampleRoughDielectricPass in double lanes; `radiance` as a number, 1 or 0.
+template <class Dist, Lobes kLobes, JointMasking kG>
+struct SampleRoughDielectricOp {
+  template <class DD, class... In>
+  static HWY_INLINE void Run(DD dd, Vec<DD>& ox, Vec<DD>& oy, Vec<DD>& oz, Vec<DD>& weight, Vec<DD>& pdf,
+                             Vec<DD>& lobe, Vec<DD> radiance, In... in) {
+    hn::Mask<DD> none = hn::MaskFromVec(hn::Zero(dd));
+    SampleRoughDielectricPass<Dist, kLobes, kG, Accuracy::kStandard>(dd, hn::Gt(radiance, hn::Zero(dd)), ox,
+                                                                     oy, oz, weight, pdf, lobe, none, in...);
+  }
+};
+
+// Out of line: few lanes need it.
+template <class Dist, Lobes kLobes, JointMasking kG, class D, class... In>
+HWY_NOINLINE void SampleRoughDielectricInDouble(D d, hn::Mask<D> radiance, Vec<D>& ox, Vec<D>& oy, Vec<D>& oz,
+                                                Vec<D>& weight, Vec<D>& pdf, Vec<D>& lobe, In... in) {
+  InDouble6<SampleRoughDielectricOp<Dist, kLobes, kG>>(d, ox, oy, oz, weight, pdf, lobe,
+                                                       hn::IfThenElseZero(radiance, Const(d, 1)), in...);
+}
+
+// Walter 2007 section 5.3: m by Dist's D cos sampling, o by Eq. 39 or 40, the weight by Eq. 41. With both
+// lobes u3 chooses by Fresnel, else it has no effect and the weight carries F or 1 - F. in: ix, iy, iz, u1,
+// u2, u3, eta, then the distribution's parameters.
+template <class Dist, Lobes kLobes, JointMasking kG, Accuracy A, class D, class... In>
+HWY_INLINE void SampleRoughDielectric(D d, hn::Mask<D> radiance, Vec<D>& ox, Vec<D>& oy, Vec<D>& oz,
+                                      Vec<D>& weight, Vec<D>& pdf, Vec<D>& lobe, In... in) {
+  hn::Mask<D> hard = hn::MaskFromVec(hn::Zero(d));
+  SampleRoughDielectricPass<Dist, kLobes, kG, A>(d, radiance, ox, oy, oz, weight, pdf, lobe, hard, in...);
+  if (kIsFloat<D> && HWY_UNLIKELY(!hn::AllFalse(d, hard))) {
+    Vec<D> ox_, oy_, oz_, weight_, pdf_, lobe_;
+    SampleRoughDielectricInDouble<Dist, kLobes, kG>(d, radiance, ox_, oy_, oz_, weight_, pdf_, lobe_, in...);
+    ox = hn::IfThenElse(hard, ox_, ox);
+    oy = hn::IfThenElse(hard, oy_, oy);
+    oz = hn::IfThenElse(hard, oz_, oz);
+    weight = hn::IfThenElse(hard, weight_, weight);
+    pdf = hn::IfThenElse(hard, pdf_, pdf);
+    lobe = hn::IfThenElse(hard, lobe_, lobe);
+  }
 }
 
 }  // namespace
