@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <memory>
@@ -24,8 +25,9 @@ struct Request {
 };
 
 void PrintHeader() {
-  fmt::print("{:<45} {:<13} {:>9} {:>10} {:>9} {:>7} {:>6} {:>6} {:>8}  {:<6} {}\n", "kernel: output",
-             "accuracy", "points", "max ulp", "mean ulp", "right", "nan", "inf", "bound", "", "worst input");
+  fmt::print("{:<45} {:<13} {:>9} {:>8} {:>8} {:>7} {:>4} {:>4} {:>8}  {:<6} {}\n", "kernel: output",
+             "accuracy", "points", "max ulp", "mean ulp", "correct", "nan", "inf", "bound", "",
+             "worst input");
 }
 
 void PrintRows(std::size_t kernel, const AccuracyOptions& options, const AccuracyReport& report) {
@@ -37,10 +39,11 @@ void PrintRows(std::size_t kernel, const AccuracyOptions& options, const Accurac
                           output.worst.transport == Transport::kImportance ? " importance" : "",
                           output.worst.got, output.worst.exact);
     }
-    fmt::print("{:<45} {:<13} {:>9} {:>10} {:>9} {:>6.1f}% {:>6} {:>6} {:>8}  {:<6} {}\n",
+    fmt::print("{:<45} {:<13} {:>9} {:>8} {:>8} {:>6.1f}% {:>4} {:>4} {:>8}  {:<6} {}\n",
                fmt::format("{}: {}", kKernels[kernel].id, output.name), AccuracyName(options), report.points,
                Short(output.max_ulp), Short(output.mean_ulp), 100 * output.correctly_rounded,
-               report.nan_count, report.inf_count, report.bound, holds ? "" : "BROKEN", worst);
+               report.nan_count, report.inf_count,
+               std::isfinite(report.bound) ? BoundText(report.bound) : "none", holds ? "" : "BROKEN", worst);
   }
   std::fflush(stdout);
 }
@@ -59,7 +62,7 @@ void Run(const Request& request, int& exit_code) {
     }
     configurations.push_back(base);
   } else {
-    UseTarget(request.target);
+    UseTarget(request.target, "; others: scalar scalar-double");
     base.target = ChosenTarget();
     std::vector<std::string> accuracies = request.accuracies;
     if (accuracies.empty()) accuracies = {"high", "standard", "fast", "double"};
@@ -75,8 +78,10 @@ void Run(const Request& request, int& exit_code) {
   const std::size_t total = kernels.size() * configurations.size();
   const bool is_terminal = isatty(STDERR_FILENO) != 0;
   fmt::print(
-      "target {}, {} random points for each row, and the grid, the extremes and a search; errors in ULP\n",
-      base.target, request.samples);
+      "target {}, {} random points of seed {} for each row, and the grid, the extremes and a search; errors "
+      "in "
+      "ULP,\n\"correct\" is the share of correctly rounded results\n",
+      base.target, request.samples, request.seed);
   PrintHeader();
   for (const std::size_t kernel : kernels) {
     for (AccuracyOptions options : configurations) {

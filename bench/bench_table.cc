@@ -47,7 +47,6 @@ void PrintCeilings(const Ceilings& ceilings) {
 
 void Run(const Request& request) {
   const std::vector<std::size_t> kernels = SelectKernels(request.ids);
-  if (request.lanes == 0) Fail("--lanes must be at least 1");
   std::vector<Accuracy> accuracies;
   for (const std::string& name : request.accuracies) accuracies.push_back(ParseAccuracy(name));
   if (accuracies.empty()) accuracies.assign(std::begin(kAccuracies), std::end(kAccuracies));
@@ -62,11 +61,11 @@ void Run(const Request& request) {
 
   for (const std::string& target : targets) {
     UseTarget(target);
-    fmt::print("target {}, {} lanes a call, {} parameters\n", ChosenTarget(), request.lanes,
-               request.uniform ? "uniform" : "per-lane");
+    fmt::print("target {}, {} lane{} a call, {} parameters\n", ChosenTarget(), request.lanes,
+               request.lanes == 1 ? "" : "s", request.uniform ? "uniform" : "per-lane");
     PrintCeilings(ChosenCeilings());
     fmt::print("{:<40} {:<9} {:>8} {:>8} {:>9} {:>9} {:>6} {:>6} {:>7} {:>6} {:>9} {:>10} {:>9}\n", "kernel",
-               "accuracy", "ns/lane", "median", "textbook", "x textbk", "div", "root", "approx", "instr",
+               "accuracy", "ns/lane", "median", "textbook", "x textb.", "div", "root", "approx", "instr",
                "floor ns", "over floor", "copy ns");
     for (const std::size_t kernel : kernels) {
       const Workload workload(kernel, request.lanes, parameters);
@@ -107,9 +106,13 @@ void AddBench(CLI::App& app) {
       ->add_option("--target", request->targets,
                    "An instruction set of this machine; may be repeated (the default: the best)")
       ->allow_extra_args(false);
-  bench->add_option("--lanes", request->lanes, "Lanes in a call (the default: 4096)");
+  bench->add_option("--lanes", request->lanes, "Lanes in a call, up to 2^20 (the default: 4096)")
+      ->check(CLI::Range(1, 1 << 20))
+      ->type_name("UINT");
   bench->add_flag("--uniform", request->uniform, "One value for the batch in each parameter that allows it");
-  bench->add_option("--seconds", request->seconds, "How long to repeat each measurement (the default: 0.03)");
+  bench->add_option("--seconds", request->seconds, "How long to repeat each measurement (the default: 0.03)")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("FLOAT");
   bench->footer(
       "ns/lane is the least over the repetitions. div, root and approx are divisions, square roots and "
       "approximate\n"

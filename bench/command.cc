@@ -21,9 +21,10 @@ void Fail(std::string_view message) {
   std::exit(kFailure);
 }
 
-void UseTarget(const std::string& target) {
+void UseTarget(const std::string& target, std::string_view others) {
+  if (target.empty()) others = "";
   const std::string message = target.empty() ? TargetEnvironmentError() : ChooseTarget(target);
-  if (!message.empty()) Fail(message);
+  if (!message.empty()) Fail(fmt::format("{}{}", message, others));
 }
 
 std::string_view Name(Accuracy accuracy) {
@@ -59,6 +60,12 @@ std::string Short(double value) {
   if (magnitude > 0 && magnitude < 1e-3) return fmt::format("{:.0e}", value);
   const int decimals = magnitude >= 100 || magnitude == 0 ? 0 : magnitude >= 10 ? 1 : magnitude >= 1 ? 2 : 3;
   return fmt::format("{:.{}f}", value, decimals);
+}
+
+std::string BoundText(double bound) {
+  int exponent;
+  const bool power = std::frexp(bound, &exponent) == 0.5;
+  return power && bound > 1e5 ? fmt::format("2^{}", exponent - 1) : fmt::format("{:g}", bound);
 }
 
 }  // namespace microlane

@@ -25,9 +25,9 @@ void AddReport(CLI::App& app);
 // One line on standard error; ends the program with kFailure.
 [[noreturn]] void Fail(std::string_view message);
 
-// Makes batch calls use `target` ("": as chosen). Fails with the library's message if there is no such
-// target, or if the environment variable MICROLANE_TARGET names none.
-void UseTarget(const std::string& target);
+// Makes batch calls use `target` ("": as chosen). Fails with the library's message, followed by `others`, if
+// there is no such target, or if the environment variable MICROLANE_TARGET names none.
+void UseTarget(const std::string& target, std::string_view others = "");
 
 inline constexpr Accuracy kAccuracies[] = {Accuracy::kHigh, Accuracy::kStandard, Accuracy::kFast};
 std::string_view Name(Accuracy accuracy);
@@ -40,6 +40,9 @@ std::vector<std::size_t> SelectKernels(const std::vector<std::string>& ids);
 
 // A count or a time for a table: three significant digits, 6 characters or fewer where it can be.
 std::string Short(double value);
+
+// A declared bound: powers of two that have many digits as such.
+std::string BoundText(double bound);
 
 }  // namespace microlane
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <limits>
@@ -79,7 +80,7 @@ class Reader {
       const std::string_view text = Trimmed(line_);
       if (!text.empty() && text[0] != '#') return true;
     }
-    if (stream_.bad()) FailHere("cannot read further");
+    if (stream_.bad()) Fail(fmt::format("cannot read the input after line {}", number_));
     return false;
   }
 
@@ -121,7 +122,8 @@ class Reader {
   void ReadLane() {
     SplitFields();
     if (fields_.size() != order_.size()) {
-      FailHere(fmt::format("{} fields where the header has {}", fields_.size(), order_.size()));
+      FailHere(fmt::format("{} field{} where the header has {}", fields_.size(),
+                           fields_.size() == 1 ? "" : "s", order_.size()));
     }
     for (std::size_t f = 0; f < fields_.size(); ++f) {
       const std::string_view text = Trimmed(fields_[f]);
@@ -274,12 +276,15 @@ void Eval(const EvalOptions& options) {
     }
     if (options.double_lanes) Fail("--accuracy does not apply to double lanes, which have one");
   }
-  if (!is_scalar && !is_oracle) UseTarget(options.target);
+  if (!is_scalar && !is_oracle) {
+    UseTarget(options.target, "; others: scalar scalar-double oracle");
+  }
 
   std::ifstream file;
   if (!options.input.empty() && options.input != "-") {
     file.open(options.input);
-    if (!file) Fail(fmt::format("cannot open {}", options.input));
+    if (!file || std::filesystem::is_directory(options.input))
+      Fail(fmt::format("cannot read {}", options.input));
   }
   std::ios::sync_with_stdio(false);
   std::istream& stream = file.is_open() ? file : std::cin;
