@@ -124,11 +124,14 @@ void AddAccuracy(CLI::App& app, int& exit_code) {
       ->allow_extra_args(false);
   accuracy->add_option("--target", request->target,
                        "An instruction set of this machine (the default: the best), scalar or scalar-double");
-  accuracy->add_option(
-      "--samples", request->samples,
-      "Random points for each kernel and accuracy; the grid, the extremes and a search from the worst "
-      "points are added (the default: 100000)");
-  accuracy->add_option("--seed", request->seed, "Of the random points (the default: 1)");
+  accuracy
+      ->add_option(
+          "--samples", request->samples,
+          "Random points for each kernel and accuracy; the grid, the extremes and a search from the worst "
+          "points are added (the default: 100000)")
+      ->check(RefuseNegative);
+  accuracy->add_option("--seed", request->seed, "Of the random points (the default: 1)")
+      ->check(RefuseNegative);
   accuracy->footer("Exit code: 0 where all declared bounds hold, 1 where one is broken, 2 on an error.");
   accuracy->callback([request, &exit_code] { Run(*request, exit_code); });
 }

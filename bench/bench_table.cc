@@ -21,12 +21,6 @@ struct Request {
   bool uniform = false;
 };
 
-Path PathOf(Accuracy accuracy) {
-  return accuracy == Accuracy::kHigh   ? Path::kHigh
-         : accuracy == Accuracy::kFast ? Path::kFast
-                                       : Path::kStandard;
-}
-
 void PrintCeilings(const Ceilings& ceilings) {
   fmt::print("nanoseconds per instruction:");
   for (const char* name : kUnitNames) fmt::print(" {:>9}", name);
@@ -111,8 +105,7 @@ void AddBench(CLI::App& app) {
       ->type_name("UINT");
   bench->add_flag("--uniform", request->uniform, "One value for the batch in each parameter that allows it");
   bench->add_option("--seconds", request->seconds, "How long to repeat each measurement (the default: 0.03)")
-      ->check(CLI::NonNegativeNumber)
-      ->type_name("FLOAT");
+      ->check(RefuseNegative);
   bench->footer(
       "ns/lane is the least over the repetitions. div, root and approx are divisions, square roots and "
       "approximate\n"

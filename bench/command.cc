@@ -53,6 +53,10 @@ std::vector<std::size_t> SelectKernels(const std::vector<std::string>& ids) {
   return selected;
 }
 
+std::string RefuseNegative(const std::string& text) {
+  return !text.empty() && text[0] == '-' ? fmt::format("{} is negative", text) : "";
+}
+
 std::string Short(double value) {
   if (!std::isfinite(value)) return fmt::format("{}", value);
   const double magnitude = std::abs(value);

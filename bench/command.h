@@ -38,6 +38,9 @@ Accuracy ParseAccuracy(std::string_view name);
 // Kernels by their ids, or by their families ("ggx"); all if there are none. Fails for an unknown one.
 std::vector<std::size_t> SelectKernels(const std::vector<std::string>& ids);
 
+// For numbers that count something.
+std::string RefuseNegative(const std::string& text);
+
 // A count or a time for a table: three significant digits, 6 characters or fewer where it can be.
 std::string Short(double value);
 

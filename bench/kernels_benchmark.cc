@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "ceilings.h"
+#include "command.h"
 #include "microlane/kernel_list.h"
 #include "microlane/kernels.h"
 #include "microlane/targets.h"
@@ -25,13 +26,8 @@
 namespace microlane {
 namespace {
 
-constexpr Accuracy kAccuracies[] = {Accuracy::kHigh, Accuracy::kStandard, Accuracy::kFast};
 constexpr Parameters kParameters[] = {Parameters::kPerLane, Parameters::kUniform};
-constexpr std::size_t kSizes[] = {16, 256, 4096};
 
-std::string_view Name(Accuracy accuracy) {
-  return accuracy == Accuracy::kHigh ? "high" : accuracy == Accuracy::kFast ? "fast" : "standard";
-}
 std::string_view Name(Parameters parameters) {
   return parameters == Parameters::kPerLane ? "per_lane" : "uniform";
 }
@@ -69,26 +65,12 @@ void Throughput(benchmark::State& state, std::size_t kernel, Accuracy accuracy, 
   });
 }
 
-// Each call takes an input that waits for the result of the call before.
-void Latency(benchmark::State& state, std::size_t kernel, Accuracy accuracy, const std::string& target,
+void Latency(benchmark::State& state, std::size_t kernel, Path path, const std::string& target,
              Parameters parameters) {
-  ChooseTarget(target);
-  const Workload workload(kernel, 1, parameters);
-  Call<float> call = workload.call();
-  std::uint32_t first, none = 0, bits;
-  float input, output;
-  std::memcpy(&first, call.in[0], sizeof first);
-  benchmark::DoNotOptimize(none);
-  call.in[0] = &input;
-  call.out[0] = &output;
-  bits = first;
-  Repeat(state, 1, 0, 0, [&] {
-    std::memcpy(&input, &bits, sizeof input);
-    RunKernel(kernel, accuracy, call, 1);
-    std::memcpy(&bits, &output, sizeof bits);
-    bits = first ^ (bits & none);
-  });
-  benchmark::DoNotOptimize(bits);
+  if (!target.empty()) ChooseTarget(target);
+  Chain chain(kernel, parameters);
+  const auto run = [&](const Call<float>& call) { RunPath(kernel, path, call, 1); };
+  Repeat(state, 1, 0, 0, [&] { chain.Step(run); });
 }
 
 void Textbook(benchmark::State& state, std::size_t kernel, Parameters parameters, std::size_t n) {
@@ -111,28 +93,30 @@ void Copy(benchmark::State& state, std::size_t kernel, const std::string& target
 
 void RegisterKernel(std::size_t kernel) {
   const std::string id(kKernels[kernel].id);
-  const Names inputs = Split(kKernels[kernel].inputs);
   for (const Parameters parameters : kParameters) {
-    if (parameters == Parameters::kUniform && inputs.per_lane == inputs.count) continue;
-    for (const std::size_t n : kSizes) {
+    if (parameters == Parameters::kUniform && !HasParameters(kernel)) continue;
+    for (const std::size_t n : kBatchLanes) {
       benchmark::RegisterBenchmark(fmt::format("{}/textbook/{}/{}", id, Name(parameters), n).c_str(),
                                    [=](benchmark::State& state) { Textbook(state, kernel, parameters, n); });
     }
+    benchmark::RegisterBenchmark(
+        fmt::format("{}/textbook/{}/1", id, Name(parameters)).c_str(),
+        [=](benchmark::State& state) { Latency(state, kernel, Path::kTextbook, "", parameters); });
     for (const std::string& target : SupportedTargets()) {
-      for (const std::size_t n : kSizes) {
+      for (const std::size_t n : kBatchLanes) {
         benchmark::RegisterBenchmark(
             fmt::format("{}/load_and_store/{}/{}/{}", id, target, Name(parameters), n).c_str(),
             [=](benchmark::State& state) { Copy(state, kernel, target, parameters, n); });
       }
       for (const Accuracy accuracy : kAccuracies) {
-        for (const std::size_t n : kSizes) {
+        for (const std::size_t n : kBatchLanes) {
           benchmark::RegisterBenchmark(
               fmt::format("{}/{}/{}/{}/{}", id, Name(accuracy), target, Name(parameters), n).c_str(),
               [=](benchmark::State& state) { Throughput(state, kernel, accuracy, target, parameters, n); });
         }
         benchmark::RegisterBenchmark(
             fmt::format("{}/{}/{}/{}/1", id, Name(accuracy), target, Name(parameters)).c_str(),
-            [=](benchmark::State& state) { Latency(state, kernel, accuracy, target, parameters); });
+            [=](benchmark::State& state) { Latency(state, kernel, PathOf(accuracy), target, parameters); });
       }
     }
   }

@@ -44,7 +44,7 @@ Floor MeasureFloor(std::size_t kernel, Accuracy accuracy, Parameters parameters)
 
   // A batch less a short one: what a call costs by itself falls out. Some vectors of a batch take a longer
   // path, so it has many.
-  const std::size_t few = 64, many = few + (accuracy == Accuracy::kHigh ? 128 : 512);
+  const std::size_t few = 16, many = few + (accuracy == Accuracy::kHigh ? 64 : 256);
   const Workload workload(kernel, many, parameters);
   RunKernel(kernel, accuracy, workload.call(), few);
   floor.per_vector = CountOperations([&] { RunKernel(kernel, accuracy, workload.call(), many); });
@@ -76,30 +76,61 @@ Floor MeasureFloor(std::size_t kernel, Accuracy accuracy, Parameters parameters)
   return floor;
 }
 
-Timing MeasurePath(std::size_t kernel, Path path, const Workload& workload, double seconds) {
-  const Call<float>& call = workload.call();
-  const std::size_t n = workload.size();
-  const auto measure = [&](const auto& function) {
-    Timing timing = Measure(seconds, function);
-    timing.min /= static_cast<double>(n);
-    timing.median /= static_cast<double>(n);
-    return timing;
-  };
+Path PathOf(Accuracy accuracy) {
+  return accuracy == Accuracy::kHigh   ? Path::kHigh
+         : accuracy == Accuracy::kFast ? Path::kFast
+                                       : Path::kStandard;
+}
+
+Accuracy AccuracyOf(Path path) {
+  return path == Path::kHigh ? Accuracy::kHigh : path == Path::kFast ? Accuracy::kFast : Accuracy::kStandard;
+}
+
+void RunPath(std::size_t kernel, Path path, const Call<float>& call, std::size_t n) {
   switch (path) {
     case Path::kTextbook:
-      return measure([&] { textbook::Run(kernel, call, n); });
+      return textbook::Run(kernel, call, n);
     case Path::kScalarFloat:
-      return measure([&] { RunScalar<float>(kernel, call, n); });
+      return RunScalar<float>(kernel, call, n);
     case Path::kScalarDouble:
-      return measure([&] { RunScalar<double>(kernel, call, n); });
+      return RunScalar<double>(kernel, call, n);
     case Path::kHigh:
-      return measure([&] { RunKernel(kernel, Accuracy::kHigh, call, n); });
+      return RunKernel(kernel, Accuracy::kHigh, call, n);
     case Path::kFast:
-      return measure([&] { RunKernel(kernel, Accuracy::kFast, call, n); });
+      return RunKernel(kernel, Accuracy::kFast, call, n);
     case Path::kStandard:
       break;
   }
-  return measure([&] { RunKernel(kernel, Accuracy::kStandard, call, n); });
+  RunKernel(kernel, Accuracy::kStandard, call, n);
+}
+
+Chain::Chain(std::size_t kernel, Parameters parameters)
+    : workload_(kernel, 1, parameters), call_(workload_.call()) {
+  std::memcpy(&first_, call_.in[0], sizeof first_);
+  bits_ = first_;
+  const volatile std::uint32_t none = 0;  // which the compiler cannot know
+  none_ = none;
+  call_.in[0] = &input_;
+  call_.out[0] = &output_;
+}
+
+double MeasureLatency(std::size_t kernel, Path path, Parameters parameters, double seconds) {
+  Chain chain(kernel, parameters);
+  const auto run = [&](const Call<float>& call) { RunPath(kernel, path, call, 1); };
+  return Measure(seconds, [&] { chain.Step(run); }).min;
+}
+
+bool HasParameters(std::size_t kernel) {
+  const Names inputs = Split(kKernels[kernel].inputs);
+  return inputs.per_lane < inputs.count;
+}
+
+Timing MeasurePath(std::size_t kernel, Path path, const Workload& workload, double seconds) {
+  const std::size_t n = workload.size();
+  Timing timing = Measure(seconds, [&] { RunPath(kernel, path, workload.call(), n); });
+  timing.min /= static_cast<double>(n);
+  timing.median /= static_cast<double>(n);
+  return timing;
 }
 
 double TextbookTime(std::size_t kernel, Parameters parameters) {

@@ -21,8 +21,6 @@ constexpr int kPathMarks[kPaths] = {7, 5, 9, 6, 4, 2};  // gnuplot's point types
 constexpr const char* kIncidenceColours[] = {"#1f6fb2", "#2e9e4f", "#e08214", "#c0392b"};
 constexpr double kErrorLow = 0.1, kErrorHigh = 1e9;  // errors beyond are drawn on the edge
 
-constexpr Path kLanePaths[] = {Path::kHigh, Path::kStandard, Path::kFast};
-
 double Clamped(double ulp) { return std::isnan(ulp) ? kErrorHigh : std::clamp(ulp, kErrorLow, kErrorHigh); }
 
 std::size_t Index(Path path) { return static_cast<std::size_t>(path); }
@@ -73,7 +71,7 @@ std::string KernelScript(const KernelResult& result) {
       "set key outside right top Left reverse\nset grid xtics ytics lt 1 lw 0.5 lc rgb '#dddddd'\n",
       kKernels[result.kernel].id);
   Range range;
-  for (const PathResult& path : result.path) range.Add(path.time.min);
+  for (const PathResult& path : result.path) range.Add(path.time().min);
   script += LogAxis('x', range, 1.6) + ErrorAxis('y');
   for (const Path path : kLanePaths) {
     script +=
@@ -83,7 +81,7 @@ std::string KernelScript(const KernelResult& result) {
   std::string plot;
   for (std::size_t p = 0; p < kPaths; ++p) {
     const PathResult& path = result.path[p];
-    script += fmt::format("$p{} << EOD\n{:g} {:g}\nEOD\n", p, path.time.min, Clamped(path.max_ulp));
+    script += fmt::format("$p{} << EOD\n{:g} {:g}\nEOD\n", p, path.time().min, Clamped(path.max_ulp));
     plot += fmt::format("{}$p{} using 1:2 with points pt {} ps 1.6 lw 2 lc rgb '{}' title '{}'",
                         p == 0 ? "plot " : ", ", p, kPathMarks[p], kPathColours[p], kPathNames[p]);
   }
@@ -143,7 +141,34 @@ std::string ErrorScript(const ReportData& data) {
               {Path::kHigh, Path::kStandard, Path::kFast, Path::kScalarFloat, Path::kScalarDouble,
                Path::kTextbook},
               [](const KernelResult& result, Path path) { return Clamped(result[path].max_ulp); }) +
-         ", NaN with lines dt 2 lc rgb '#555555' title 'bounds: 1, 4 and 16, 4096'\n";
+         ", NaN with lines dt 2 lc rgb '#555555' title 'goals: 1, 4 and 16, 4096'\n";
+}
+
+// All kernels in one picture.
+std::string OverviewScript(const ReportData& data) {
+  Range range;
+  for (const KernelResult& result : data.kernels) {
+    for (const Path path : kLanePaths) range.Add(result.Speedup(path));
+  }
+  range.Add(1);
+  std::string script = fmt::format("set title 'Every kernel: error against speed, {}, one core of {}'\n",
+                                   data.target, data.machine) +
+                       "set xlabel 'times as fast as the textbook code'\nset ylabel 'largest error, ULP'\n"
+                       "set grid xtics ytics lt 1 lw 0.5 lc rgb '#dddddd'\nset key outside right top Left "
+                       "reverse\n" +
+                       LogAxis('x', range, 1.3) + ErrorAxis('y');
+  std::string plot;
+  for (const Path path : {Path::kTextbook, Path::kFast, Path::kStandard, Path::kHigh}) {
+    const std::size_t p = Index(path);
+    script += fmt::format("$p{} << EOD\n", p);
+    for (const KernelResult& result : data.kernels) {
+      script += fmt::format("{:g} {:g}\n", result.Speedup(path), Clamped(result[path].max_ulp));
+    }
+    script += "EOD\n";
+    plot += fmt::format("{}$p{} using 1:2 with points pt {} ps 0.9 lw 1.5 lc rgb '{}' title '{}'",
+                        plot.empty() ? "plot " : ", ", p, kPathMarks[p], kPathColours[p], kPathNames[p]);
+  }
+  return script + plot + "\n";
 }
 
 std::string FloorScript(const ReportData& data) {
@@ -279,6 +304,7 @@ std::string WritePlots(const ReportData& data, const std::filesystem::path& fold
   plots.emplace_back(kErrorPlot, ErrorScript(data));
   plots.emplace_back(kFloorPlot, FloorScript(data));
   const std::size_t overviews = plots.size();
+  plots.emplace_back(kOverviewPlot, OverviewScript(data));
   for (std::size_t f = 0; f < std::size(kFits); f += 2) {
     plots.emplace_back(GlassPlot(kFits[f].glass), GlassScript(data, kFits[f].glass));
   }

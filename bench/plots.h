@@ -14,6 +14,7 @@ namespace microlane {
 // Base names, without .svg or .png, within the report's folder.
 std::string KernelPlot(std::size_t kernel);
 std::string GlassPlot(const std::string& glass);
+inline constexpr const char* kOverviewPlot = "plots/overview";
 inline constexpr const char* kSpeedPlot = "plots/speed";
 inline constexpr const char* kErrorPlot = "plots/error";
 inline constexpr const char* kFloorPlot = "plots/floor";

@@ -6,19 +6,25 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "accuracy.h"
 #include "command.h"
+#include "commit.h"
+#include "goals.h"
 #include "microlane/kernel_list.h"
 #include "microlane/targets.h"
 #include "page.h"
 #include "plots.h"
+#include "points.h"
 #include "report_data.h"
+#include "tables.h"
 #include "textbook_accuracy.h"
 
 namespace microlane {
@@ -32,27 +38,23 @@ struct Request {
   double seconds = 0.02;
 };
 
-constexpr Path kLanePaths[] = {Path::kHigh, Path::kStandard, Path::kFast};
-
-Accuracy AccuracyOf(Path path) {
-  return path == Path::kHigh ? Accuracy::kHigh : path == Path::kFast ? Accuracy::kFast : Accuracy::kStandard;
-}
-
 // One line on standard error that is written over on a terminal.
 class Progress {
  public:
   void Show(const std::string& phase, std::size_t done, std::size_t total, std::string_view what) const {
-    if (terminal_) {
-      fmt::print(stderr, "\r\033[K{} {}/{} {}", phase, done + 1, total, what);
-    } else if (done % 16 == 0) {
-      fmt::print(stderr, "{} {}/{} {}\n", phase, done + 1, total, what);
-    }
+    if (!terminal_ && done % 8 != 0) return;
+    const std::string line = fmt::format("[{:3.0f} s] {} {}/{} {}", Seconds(), phase, done + 1, total, what);
+    fmt::print(stderr, terminal_ ? "\r\033[K{}" : "{}\n", line);
   }
   void Clear() const {
     if (terminal_) fmt::print(stderr, "\r\033[K");
   }
+  double Seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
 
  private:
+  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   const bool terminal_ = isatty(STDERR_FILENO) != 0;
 };
 
@@ -75,18 +77,38 @@ std::string Compiler() {
 #endif
 }
 
+std::string Date() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  return fmt::format("{:04}-{:02}-{:02} {:02}:{:02} UTC", utc.tm_year + 1900, utc.tm_mon + 1, utc.tm_mday,
+                     utc.tm_hour, utc.tm_min);
+}
+
 void MeasureTimes(const Request& request, const Progress& progress, ReportData& data) {
   for (std::size_t k = 0; k < kNumKernels; ++k) {
     progress.Show("timing", k, kNumKernels, kKernels[k].id);
     KernelResult result{k, {}};
-    const Workload workload(k, 4096, Parameters::kPerLane), workload16(k, 16, Parameters::kPerLane),
-        uniform(k, 4096, Parameters::kUniform);
-    for (std::size_t p = 0; p < kPaths; ++p) {
-      result.path[p].time = MeasurePath(k, static_cast<Path>(p), workload, request.seconds);
+    for (const Parameters parameters : {Parameters::kPerLane, Parameters::kUniform}) {
+      const bool per_lane = parameters == Parameters::kPerLane;
+      if (!per_lane && !HasParameters(k)) continue;
+      const std::size_t u = per_lane ? 0 : 1;
+      for (std::size_t b = kBatches; b-- > 0;) {
+        const bool main = per_lane && b == kLongBatch;
+        const Workload workload(k, kBatchLanes[b], parameters);
+        for (std::size_t p = 0; p < kPaths; ++p) {
+          const Path path = static_cast<Path>(p);
+          const bool is_scalar = path == Path::kScalarFloat || path == Path::kScalarDouble;
+          if (is_scalar && !main) continue;
+          result[path].batch[u][b] =
+              MeasurePath(k, path, workload, main ? request.seconds : request.seconds / 4);
+        }
+      }
+      for (const Path path : {Path::kHigh, Path::kStandard, Path::kFast, Path::kTextbook}) {
+        result[path].latency[u] = MeasureLatency(k, path, parameters, request.seconds / 4);
+      }
     }
     for (const Path path : kLanePaths) {
-      result[path].time16 = MeasurePath(k, path, workload16, request.seconds).min;
-      result[path].time_uniform = MeasurePath(k, path, uniform, request.seconds).min;
       result[path].floor = MeasureFloor(k, AccuracyOf(path), Parameters::kPerLane);
     }
     data.kernels.push_back(result);
@@ -108,18 +130,78 @@ void MeasureOtherTargets(const Request& request, const Progress& progress, Repor
   ChooseTarget(data.target);
 }
 
+// How far the median repetition lies above the least.
+void JudgeNoise(ReportData& data) {
+  std::vector<double> excess;
+  for (const KernelResult& result : data.kernels) {
+    for (const PathResult& path : result.path) {
+      for (const auto& batches : path.batch) {
+        for (const Timing& time : batches) {
+          if (time.min > 0) excess.push_back(time.median / time.min - 1);
+        }
+      }
+    }
+  }
+  std::sort(excess.begin(), excess.end());
+  data.noise_median = excess[excess.size() / 2];
+  data.noise_tenth = excess[excess.size() * 9 / 10];
+}
+
+// The rows of the stiff and extreme cases that apply to a kernel, under every accuracy and by the textbook
+// code. The rows of all kernels are kept together.
+TextbookError MeasureExtremes(std::size_t kernel, ReportData& data) {
+  TextbookError textbook;
+  const std::vector<ExtremeCase> cases = ExtremeCases(kernel);
+  std::vector<std::string_view> rows;
+  for (const ExtremeCase& extreme : cases) {
+    if (std::find(rows.begin(), rows.end(), extreme.row) == rows.end()) rows.push_back(extreme.row);
+  }
+  for (const std::string_view row : rows) {
+    StabilityResult result;
+    result.row = row;
+    result.kernel = kernel;
+    std::vector<Point> points;
+    for (const ExtremeCase& extreme : cases) {
+      if (extreme.row != row) continue;
+      points.push_back(extreme.in);
+      if (result.what.find(extreme.what) != std::string::npos) continue;
+      result.what += fmt::format("{}{}", result.what.empty() ? "" : "; ", extreme.what);
+    }
+    const std::vector<AccuracyReport> reports = MeasureAccuracy(kernel, AllAccuracies(data.target), points);
+    for (std::size_t p = 0; p < kStabilityPaths; ++p) {
+      result.points = reports[p].points;
+      result.max_ulp[p] = reports[p].max_ulp;
+      result.bound[p] = reports[p].bound;
+      result.nan_count[p] = reports[p].nan_count + reports[p].inf_count;
+    }
+    result.textbook = MeasureTextbook(kernel, points);
+    textbook += result.textbook;
+    auto place =
+        std::find_if(data.stability.rbegin(), data.stability.rend(), [&](const StabilityResult& other) {
+          return other.row == row;
+        }).base();
+    if (place == data.stability.begin()) place = data.stability.end();
+    data.stability.insert(place, result);
+  }
+  return textbook;
+}
+
 void MeasureErrors(const Request& request, const Progress& progress, ReportData& data) {
   for (KernelResult& result : data.kernels) {
     progress.Show("judging", result.kernel, kNumKernels, kKernels[result.kernel].id);
+    TextbookError textbook = MeasureExtremes(result.kernel, data);
+    std::vector<Point> points = GridPoints(result.kernel, 1000);
+    const RandomPoints random(result.kernel, request.seed);
+    for (std::uint64_t i = 0; i < request.samples / 10; ++i) points.push_back(random(i));
+    textbook += MeasureTextbook(result.kernel, points);
     for (std::size_t p = 0; p < kPaths; ++p) {
       const Path path = static_cast<Path>(p);
       PathResult& to = result.path[p];
       if (path == Path::kTextbook) {
-        const TextbookError error = MeasureTextbook(result.kernel, request.samples / 10, request.seed);
-        to.max_ulp = error.max_ulp;
-        to.mean_ulp = error.mean_ulp;
-        to.points = error.points;
-        to.nan_count = error.nan_count;
+        to.max_ulp = textbook.max_ulp;
+        to.mean_ulp = textbook.mean_ulp;
+        to.points = textbook.points;
+        to.nan_count = textbook.nan_count;
         continue;
       }
       AccuracyOptions options;
@@ -146,229 +228,7 @@ void MeasureErrors(const Request& request, const Progress& progress, ReportData&
   }
 }
 
-void SetGoals(ReportData& data) {
-  const auto result_of = [&](std::string_view id) -> const KernelResult& {
-    return data.kernels[KernelIndex(id)];
-  };
-  const auto errors = [&](const std::string& what, Path path, double goal, bool whole, bool component) {
-    double largest = 0;
-    std::size_t worst = 0, within = 0, broken = 0, count = 0;
-    for (const KernelResult& result : data.kernels) {
-      const bool is_whole = kKernels[result.kernel].id.substr(0, 16) == "rough_dielectric";
-      if (!(is_whole ? whole : component)) continue;
-      const PathResult& reached = result[path];
-      ++count;
-      within += reached.max_ulp <= goal ? 1 : 0;
-      broken += reached.max_ulp <= reached.bound ? 0 : 1;
-      if (!(reached.max_ulp <= largest)) {
-        largest = reached.max_ulp;
-        worst = result.kernel;
-      }
-    }
-    const std::string bounds = broken == 0 ? "all" : fmt::format("{}", count - broken);
-    data.goals.push_back(
-        {what, fmt::format("{:g} ULP", goal),
-         fmt::format("{} of {} within, {} within their declared bounds; largest {} ULP in {}", within, count,
-                     bounds, Short(largest), kKernels[worst].id),
-         within == count});
-  };
-  errors("standard: component kernels, largest error", Path::kStandard, 4, false, true);
-  errors("standard: whole values, largest error", Path::kStandard, 16, true, false);
-  errors("high: largest error", Path::kHigh, 1, true, true);
-  errors("fast: largest error (2^-11 relative)", Path::kFast, 4096, true, true);
-
-  const auto speed = [&](const std::string& what, std::string_view id, Path path, double goal) {
-    const KernelResult& result = result_of(id);
-    const double speedup = result.Speedup(path);
-    data.goals.push_back({what, fmt::format("{:g} times", goal),
-                          fmt::format("{} times ({} ns per lane; uniform parameters {} ns)", Short(speedup),
-                                      Short(result[path].time.min), Short(result[path].time_uniform)),
-                          speedup >= goal});
-  };
-  speed("GGX reflection value, height-correlated, standard, against textbook",
-        "rough_dielectric.eval_reflection", Path::kStandard, 32);
-  speed("the same, fast", "rough_dielectric.eval_reflection", Path::kFast, 50);
-  speed("rough dielectric value, both sides, standard, against textbook", "rough_dielectric.eval",
-        Path::kStandard, 20);
-  speed("the same, fast", "rough_dielectric.eval", Path::kFast, 35);
-
-  if (CanCountOperations()) {
-    const Operations& operations =
-        result_of("rough_dielectric.eval_reflection")[Path::kStandard].floor.per_vector;
-    const double divisions = operations.Count(Unit::kDivision), roots = operations.Count(Unit::kRoot);
-    data.goals.push_back({"GGX reflection value: divisions and square roots per vector, standard", "1 and 3",
-                          fmt::format("{} and {}", Short(divisions), Short(roots)),
-                          divisions <= 1.005 && roots <= 3.005});
-  }
-  const auto ratios = [&](const std::string& what, double goal, const std::vector<Path>& paths,
-                          const auto& ratio) {
-    double largest = 0;
-    std::size_t worst = 0, within = 0, count = 0;
-    Path worst_path = Path::kStandard;
-    for (const KernelResult& result : data.kernels) {
-      for (const Path path : paths) {
-        const double value = ratio(result, path);
-        ++count;
-        within += value <= goal ? 1 : 0;
-        if (value > largest) {
-          largest = value;
-          worst = result.kernel;
-          worst_path = path;
-        }
-      }
-    }
-    data.goals.push_back({what, fmt::format("{:g}", goal),
-                          fmt::format("{} of {} within; largest {} in {} {}", within, count, Short(largest),
-                                      kKernels[worst].id, kPathNames[static_cast<std::size_t>(worst_path)]),
-                          within == count});
-  };
-  if (CanCountOperations()) {
-    ratios("every kernel, high, standard and fast: time over floor", 1.3,
-           {Path::kHigh, Path::kStandard, Path::kFast},
-           [](const KernelResult& result, Path path) { return result.OverFloor(path); });
-  }
-  ratios("standard and fast: time per lane with n = 16 over n = 4096", 1.5, {Path::kStandard, Path::kFast},
-         [](const KernelResult& result, Path path) { return result[path].time16 / result[path].time.min; });
-}
-
-// A CSV file of the report's folder.
-class Csv {
- public:
-  Csv(const fs::path& path, std::string_view header) : path_(path.string()), file_(path) {
-    Line("{}", header);
-  }
-
-  template <class... Arguments>
-  void Line(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
-    file_ << fmt::format(format, std::forward<Arguments>(arguments)...) << '\n';
-  }
-  void Close() {
-    file_.close();
-    if (!file_) Fail(fmt::format("cannot write {}", path_));
-  }
-
- private:
-  std::string path_;
-  std::ofstream file_;
-};
-
-void WriteTables(const ReportData& data, const fs::path& folder) {
-  Csv kernels(
-      folder / "kernels.csv",
-      "kernel,path,target,ns_per_lane,median_ns_per_lane,times_textbook,max_ulp,mean_ulp,points,nan_points,"
-      "bound_ulp,ns_per_lane_16,ns_per_lane_uniform,divisions,roots,approximations,instructions,"
-      "floor_divider_ns,floor_vector_ns,floor_memory_ns,over_floor");
-  for (const KernelResult& result : data.kernels) {
-    for (std::size_t p = 0; p < kPaths; ++p) {
-      const PathResult& path = result.path[p];
-      const bool lanes = p < 3;
-      std::string row = fmt::format("{},{},{},{:.5g},{:.5g},{:.5g},{:.5g},{:.5g},{},{}",
-                                    kKernels[result.kernel].id, kPathNames[p], lanes ? data.target : "",
-                                    path.time.min, path.time.median, result.Speedup(static_cast<Path>(p)),
-                                    path.max_ulp, path.mean_ulp, path.points, path.nan_count);
-      if (lanes) {
-        row += fmt::format(",{:g},{:.5g},{:.5g}", path.bound, path.time16, path.time_uniform);
-      } else {
-        row += ",,,";
-      }
-      if (lanes && CanCountOperations()) {
-        const Operations& operations = path.floor.per_vector;
-        row += fmt::format(",{:.4g},{:.4g},{:.4g},{:.5g},{:.5g},{:.5g},{:.5g},{:.5g}",
-                           operations.Count(Unit::kDivision), operations.Count(Unit::kRoot),
-                           operations.Count(Unit::kReciprocal) + operations.Count(Unit::kReciprocalRoot),
-                           operations.all, path.floor.divider, path.floor.vector, path.floor.memory,
-                           result.OverFloor(static_cast<Path>(p)));
-      } else {
-        row += ",,,,,,,,";
-      }
-      kernels.Line("{}", row);
-    }
-  }
-  kernels.Close();
-
-  Csv targets(folder / "targets.csv", "kernel,accuracy,target,ns_per_lane");
-  for (const KernelResult& result : data.kernels) {
-    for (const Path path : kLanePaths) {
-      targets.Line("{},{},{},{:.5g}", kKernels[result.kernel].id, kPathNames[static_cast<std::size_t>(path)],
-                   data.target, result[path].time.min);
-    }
-  }
-  for (const TargetTime& time : data.targets) {
-    targets.Line("{},{},{},{:.5g}", kKernels[time.kernel].id, kPathNames[static_cast<std::size_t>(time.path)],
-                 time.target, time.ns);
-  }
-  targets.Close();
-
-  Csv ceilings(folder / "ceilings.csv", "target,bytes,type,unit,ns_per_instruction");
-  for (std::size_t w = 0; w < kWidths; ++w) {
-    for (std::size_t t = 0; t < 2; ++t) {
-      for (std::size_t u = 0; u < kUnits; ++u) {
-        const double ns = data.ceilings.ns[w][t][u];
-        if (ns == 0) continue;
-        ceilings.Line("{},{},{},{},{:.5g}", data.target, w == 0 ? (t == 0 ? 4 : 8) : kWidthBytes[w],
-                      t == 0 ? "float" : "double", kUnitNames[u], ns);
-      }
-    }
-  }
-  ceilings.Close();
-
-  Csv glasses(
-      folder / "glasses.csv",
-      "glass,distribution,alpha,scale,incidence_degrees,transmitted_degrees,high,fast,relative_difference");
-  for (const GlassCurve& curve : data.glasses) {
-    for (std::size_t i = 0; i < curve.angle.size(); ++i) {
-      const double high = static_cast<double>(curve.high[i]), fast = static_cast<double>(curve.fast[i]);
-      glasses.Line("{},{},{},{},{},{:.1f},{:.9g},{:.9g},{}", curve.fit.glass, curve.fit.distribution,
-                   curve.fit.alpha, curve.fit.scale, curve.incidence, curve.angle[i], high, fast,
-                   high > 0 ? fmt::format("{:.4g}", fast / high - 1) : "");
-    }
-  }
-  glasses.Close();
-
-  Csv goals(folder / "goals.csv", "figure,goal,reached,met");
-  for (const Goal& goal : data.goals) {
-    goals.Line("\"{}\",\"{}\",\"{}\",{}", goal.what, goal.goal, goal.reached, goal.met ? "yes" : "no");
-  }
-  goals.Close();
-}
-
-void PrintTables(const ReportData& data) {
-  fmt::print("target {} of {}\n", data.target, data.machine);
-  fmt::print(
-      "{:<44} | {:>8} {:>7} {:>7} {:>7} | {:>6} {:>6} | {:>5} {:>5} | {:>4} {:>4} | {:>7} {:>7} {:>7} {:>7} "
-      "{:>8}\n",
-      "", "textbook", "high", "std", "fast", "std", "fast", "std", "fast", "div", "root", "high", "std",
-      "fast", "scalar", "textbook");
-  fmt::print("{:<44} | {:^32} | {:^13} | {:^11} | {:^9} | {:^40}\n", "kernel", "ns per lane", "x textbook",
-             "over floor", "std", "largest error, ULP");
-  const bool counted = CanCountOperations();
-  for (const KernelResult& result : data.kernels) {
-    const PathResult &high = result[Path::kHigh], &standard = result[Path::kStandard],
-                     &fast = result[Path::kFast];
-    const auto ulp = [](const PathResult& path) {
-      return Short(path.max_ulp) + (path.bound > 0 && !(path.max_ulp <= path.bound) ? "!" : "");
-    };
-    const auto counted_or_dash = [&](double value) { return counted ? Short(value) : "-"; };
-    fmt::print(
-        "{:<44} | {:>8} {:>7} {:>7} {:>7} | {:>6} {:>6} | {:>5} {:>5} | {:>4} {:>4} | {:>7} {:>7} {:>7} "
-        "{:>7} {:>8}\n",
-        kKernels[result.kernel].id, Short(result[Path::kTextbook].time.min), Short(high.time.min),
-        Short(standard.time.min), Short(fast.time.min), Short(result.Speedup(Path::kStandard)),
-        Short(result.Speedup(Path::kFast)), counted_or_dash(result.OverFloor(Path::kStandard)),
-        counted_or_dash(result.OverFloor(Path::kFast)),
-        counted_or_dash(standard.floor.per_vector.Count(Unit::kDivision)),
-        counted_or_dash(standard.floor.per_vector.Count(Unit::kRoot)), ulp(high), ulp(standard), ulp(fast),
-        Short(result[Path::kScalarFloat].max_ulp), ulp(result[Path::kTextbook]));
-  }
-  fmt::print("An error marked ! is above the declared bound.\n\n");
-  for (const Goal& goal : data.goals) {
-    fmt::print("{:<3} {:<75} goal {:<9} reached {}\n", goal.met ? "yes" : "no", goal.what, goal.goal,
-               goal.reached);
-  }
-}
-
 void Run(const Request& request) {
-  const auto start = std::chrono::steady_clock::now();
   UseTarget(request.target);
   const fs::path folder(request.out);
   std::error_code error;
@@ -379,9 +239,14 @@ void Run(const Request& request) {
   ReportData data;
   data.target = ChosenTarget();
   data.machine = Machine();
+  data.processors = std::thread::hardware_concurrency();
   data.compiler = Compiler();
+  data.commit = MICROLANE_COMMIT;
+  data.date = Date();
+  data.samples = request.samples;
   data.ceilings = ChosenCeilings();
   MeasureTimes(request, progress, data);
+  JudgeNoise(data);
   MeasureOtherTargets(request, progress, data);
   MeasureErrors(request, progress, data);
   data.glasses = MeasureGlasses();
@@ -395,7 +260,7 @@ void Run(const Request& request) {
     });
     progress.Clear();
   }
-  data.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  data.seconds = progress.Seconds();
   const fs::path page = folder / "index.html";
   std::ofstream file(page, std::ios::binary);
   file << MakePage(data, folder);
@@ -415,17 +280,20 @@ void AddReport(CLI::App& app) {
   auto request = std::make_shared<Request>();
   report->add_option("--out", request->out, "The folder to write (the default: report)");
   report->add_option("--target", request->target, "The instruction set to report on (the default: the best)");
-  report->add_option(
-      "--samples", request->samples,
-      "Random points for each kernel and accuracy; a grid, the extremes and a search are added (the "
-      "default: 20000). The slow paths take a tenth");
-  report->add_option("--seed", request->seed, "Of the random points (the default: 1)");
-  report->add_option("--seconds", request->seconds,
-                     "How long to repeat each measurement of time (the default: 0.02)");
+  report
+      ->add_option(
+          "--samples", request->samples,
+          "Random points for each kernel and accuracy; a grid, the extremes and a search are added (the "
+          "default: 20000). The slow paths take a tenth")
+      ->check(RefuseNegative);
+  report->add_option("--seed", request->seed, "Of the random points (the default: 1)")->check(RefuseNegative);
+  report
+      ->add_option("--seconds", request->seconds,
+                   "How long to repeat each measurement of time (the default: 0.02)")
+      ->check(RefuseNegative);
   report->footer(
-      "Writes index.html, which needs no other file, and beside it kernels.csv, targets.csv, ceilings.csv, "
-      "glasses.csv,\n"
-      "goals.csv and plots/ as SVG and PNG with their gnuplot scripts. Takes a few minutes.");
+      "Writes index.html, which needs no other file, and beside it the tables as CSV, readme_table.md, and "
+      "plots/ as SVG\nand PNG with their gnuplot scripts. Takes a few minutes.");
   report->callback([request] { Run(*request); });
 }
 

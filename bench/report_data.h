@@ -11,19 +11,25 @@
 #include "ceilings.h"
 #include "glasses.h"
 #include "performance.h"
+#include "textbook_accuracy.h"
 
 namespace microlane {
 
-// One path of one kernel.
+// One path of one kernel. Times are in nanoseconds per lane.
 struct PathResult {
-  Timing time;         // ns per lane, 4096 lanes, per-lane parameters
+  // Of high, standard, fast and textbook by parameters and batch; of the scalar code the one with per-lane
+  // parameters and the longest batch.
+  Timing batch[2][kBatches];
+  double latency[2] = {};
   double max_ulp = 0;  // over the outputs and all points; infinite where one is NaN without cause
   double mean_ulp = 0;
   std::uint64_t points = 0, nan_count = 0;
-  // Of high, standard and fast only:
+  // Of high, standard and fast:
   double bound = 0;
-  double time16 = 0, time_uniform = 0;  // ns per lane with 16 lanes, and with uniform parameters
   Floor floor;
+
+  const Timing& time() const { return batch[0][kLongBatch]; }
+  double ShortOverLong() const { return batch[0][0].min / time().min; }
 };
 
 struct KernelResult {
@@ -32,8 +38,8 @@ struct KernelResult {
 
   const PathResult& operator[](Path p) const { return path[static_cast<std::size_t>(p)]; }
   PathResult& operator[](Path p) { return path[static_cast<std::size_t>(p)]; }
-  double Speedup(Path p) const { return (*this)[Path::kTextbook].time.min / (*this)[p].time.min; }
-  double OverFloor(Path p) const { return (*this)[p].time.min / (*this)[p].floor.ns(); }
+  double Speedup(Path p) const { return (*this)[Path::kTextbook].time().min / (*this)[p].time().min; }
+  double OverFloor(Path p) const { return (*this)[p].time().min / (*this)[p].floor.ns(); }
 };
 
 // Time of one kernel on one of the other targets.
@@ -44,6 +50,22 @@ struct TargetTime {
   double ns;
 };
 
+// One kernel at the inputs of one row of the stiff and extreme cases, on the report's target.
+inline constexpr std::size_t kStabilityPaths = 4;
+inline constexpr const char* kStabilityNames[kStabilityPaths] = {"high", "standard", "fast", "double"};
+struct StabilityResult {
+  std::string row, what;  // id of the row, its cases
+  std::size_t kernel;
+  std::uint64_t points = 0;
+  double max_ulp[kStabilityPaths] = {}, bound[kStabilityPaths] = {};
+  std::uint64_t nan_count[kStabilityPaths] = {};  // and infinities
+  TextbookError textbook;
+
+  double OverBound(std::size_t p) const { return max_ulp[p] / bound[p]; }
+  bool Holds(std::size_t p) const { return nan_count[p] == 0 && max_ulp[p] <= bound[p]; }
+  bool Holds() const { return Holds(0) && Holds(1) && Holds(2) && Holds(3); }
+};
+
 // A figure to reach, and the one reached.
 struct Goal {
   std::string what, goal, reached;
@@ -51,11 +73,16 @@ struct Goal {
 };
 
 struct ReportData {
-  std::string target, machine, compiler;
-  double seconds = 0;  // the whole run
+  std::string target, machine, compiler, commit, date;
+  unsigned processors = 0;
+  std::uint64_t samples = 0;  // random points of each kernel and accuracy
+  double noise_median = 0,
+         noise_tenth = 0;  // of median over least time less 1: the median, and the 9th decile
+  double seconds = 0;      // the whole run
   Ceilings ceilings;
   std::vector<KernelResult> kernels;
   std::vector<TargetTime> targets;
+  std::vector<StabilityResult> stability;  // rows together, in the order of their first appearance
   std::vector<GlassCurve> glasses;
   std::vector<Goal> goals;
 };

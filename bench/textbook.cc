@@ -456,6 +456,7 @@ void Loop(const Call<float>& call, std::size_t n) {
   }
   const Transport transport = call.transport;
   for (std::size_t i = 0; i < n; ++i) {
+    asm volatile("");  // one lane at a time, as a renderer calls it: keeps the loop from being vectorised
     float in[kIn], out[kOut];
     for (std::size_t k = 0; k < kIn; ++k) in[k] = from[k][i * step[k]];
     kLane(in, out, transport);

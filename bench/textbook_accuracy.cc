@@ -50,18 +50,23 @@ TextbookError Judge(std::size_t kernel, const std::vector<Point>& points, std::s
     error.max_ulp = std::max(error.max_ulp, largest);
     sum += largest;
   }
-  error.mean_ulp = sum;
+  error.mean_ulp = sum / static_cast<double>(std::max<std::uint64_t>(error.points, 1));
   return error;
 }
 
 }  // namespace
 
-TextbookError MeasureTextbook(std::size_t kernel, std::uint64_t samples, std::uint64_t seed) {
-  std::vector<Point> points = GridPoints(kernel, 1000);
-  const RandomPoints random(kernel, seed);
-  for (std::uint64_t i = 0; i < samples; ++i) points.push_back(random(i));
-  for (const ExtremeCase& extreme : ExtremeCases(kernel)) points.push_back(extreme.in);
+TextbookError& TextbookError::operator+=(const TextbookError& other) {
+  const double sum =
+      mean_ulp * static_cast<double>(points) + other.mean_ulp * static_cast<double>(other.points);
+  points += other.points;
+  nan_count += other.nan_count;
+  max_ulp = std::max(max_ulp, other.max_ulp);
+  mean_ulp = sum / static_cast<double>(std::max<std::uint64_t>(points, 1));
+  return *this;
+}
 
+TextbookError MeasureTextbook(std::size_t kernel, const std::vector<Point>& points) {
   const std::size_t threads = std::max(1u, std::thread::hardware_concurrency());
   std::vector<TextbookError> parts(threads);
   std::vector<std::thread> workers;
@@ -72,13 +77,7 @@ TextbookError MeasureTextbook(std::size_t kernel, std::uint64_t samples, std::ui
   }
   for (std::thread& worker : workers) worker.join();
   TextbookError total;
-  for (const TextbookError& part : parts) {
-    total.points += part.points;
-    total.nan_count += part.nan_count;
-    total.max_ulp = std::max(total.max_ulp, part.max_ulp);
-    total.mean_ulp += part.mean_ulp;
-  }
-  total.mean_ulp /= static_cast<double>(std::max<std::uint64_t>(total.points, 1));
+  for (const TextbookError& part : parts) total += part;
   return total;
 }
 

@@ -4,16 +4,21 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
+
+#include "points.h"
 
 namespace microlane {
 
 struct TextbookError {
   std::uint64_t points = 0, nan_count = 0;  // of the latter, points with a NaN or an infinity in an output
   double max_ulp = 0, mean_ulp = 0;         // over finite outputs
+
+  TextbookError& operator+=(const TextbookError& other);
 };
 
-// `samples` random points, a grid and the extremes, as for the kernels, all judged by the oracle.
-TextbookError MeasureTextbook(std::size_t kernel, std::uint64_t samples, std::uint64_t seed);
+// All points are judged by the oracle.
+TextbookError MeasureTextbook(std::size_t kernel, const std::vector<Point>& points);
 
 }  // namespace microlane
 

@@ -1,0 +1,100 @@
+#include "goals.h"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "command.h"
+#include "microlane/kernel_list.h"
+
+namespace microlane {
+
+void SetGoals(ReportData& data) {
+  const auto result_of = [&](std::string_view id) -> const KernelResult& {
+    return data.kernels[KernelIndex(id)];
+  };
+  const auto errors = [&](const std::string& what, Path path, double goal, bool whole, bool component) {
+    double largest = 0;
+    std::size_t worst = 0, within = 0, broken = 0, count = 0;
+    for (const KernelResult& result : data.kernels) {
+      const bool is_whole = kKernels[result.kernel].id.substr(0, 16) == "rough_dielectric";
+      if (!(is_whole ? whole : component)) continue;
+      const PathResult& reached = result[path];
+      ++count;
+      within += reached.max_ulp <= goal ? 1 : 0;
+      broken += reached.max_ulp <= reached.bound ? 0 : 1;
+      if (!(reached.max_ulp <= largest)) {
+        largest = reached.max_ulp;
+        worst = result.kernel;
+      }
+    }
+    const std::string bounds = broken == 0 ? "all" : fmt::format("{}", count - broken);
+    data.goals.push_back(
+        {what, fmt::format("{:g} ULP", goal),
+         fmt::format("{} of {} within, {} within their declared bounds; largest {} ULP in {}", within, count,
+                     bounds, Short(largest), kKernels[worst].id),
+         within == count});
+  };
+  errors("standard: component kernels, largest error", Path::kStandard, 4, false, true);
+  errors("standard: whole values, largest error", Path::kStandard, 16, true, false);
+  errors("high: largest error", Path::kHigh, 1, true, true);
+  errors("fast: largest error (2^-11 relative)", Path::kFast, 4096, true, true);
+
+  const auto speed = [&](const std::string& what, std::string_view id, Path path, double goal) {
+    const KernelResult& result = result_of(id);
+    const double speedup = result.Speedup(path);
+    data.goals.push_back(
+        {what, fmt::format("{:g} times", goal),
+         fmt::format("{} times ({} ns per lane; uniform parameters {} ns)", Short(speedup),
+                     Short(result[path].time().min), Short(result[path].batch[1][kLongBatch].min)),
+         speedup >= goal});
+  };
+  speed("GGX reflection value, height-correlated, standard, against textbook",
+        "rough_dielectric.eval_reflection", Path::kStandard, 32);
+  speed("the same, fast", "rough_dielectric.eval_reflection", Path::kFast, 50);
+  speed("rough dielectric value, both sides, standard, against textbook", "rough_dielectric.eval",
+        Path::kStandard, 20);
+  speed("the same, fast", "rough_dielectric.eval", Path::kFast, 35);
+
+  if (CanCountOperations()) {
+    const Operations& operations =
+        result_of("rough_dielectric.eval_reflection")[Path::kStandard].floor.per_vector;
+    const double divisions = operations.Count(Unit::kDivision), roots = operations.Count(Unit::kRoot);
+    data.goals.push_back({"GGX reflection value: divisions and square roots per vector, standard", "1 and 3",
+                          fmt::format("{} and {}", Short(divisions), Short(roots)),
+                          divisions <= 1.005 && roots <= 3.005});
+  }
+  const auto ratios = [&](const std::string& what, double goal, const std::vector<Path>& paths,
+                          const auto& ratio) {
+    double largest = 0;
+    std::size_t worst = 0, within = 0, count = 0;
+    Path worst_path = Path::kStandard;
+    for (const KernelResult& result : data.kernels) {
+      for (const Path path : paths) {
+        const double value = ratio(result, path);
+        ++count;
+        within += value <= goal ? 1 : 0;
+        if (value > largest) {
+          largest = value;
+          worst = result.kernel;
+          worst_path = path;
+        }
+      }
+    }
+    data.goals.push_back({what, fmt::format("{:g}", goal),
+                          fmt::format("{} of {} within; largest {} in {} {}", within, count, Short(largest),
+                                      kKernels[worst].id, kPathNames[static_cast<std::size_t>(worst_path)]),
+                          within == count});
+  };
+  if (CanCountOperations()) {
+    ratios("every kernel, high, standard and fast: time over floor", 1.3,
+           {Path::kHigh, Path::kStandard, Path::kFast},
+           [](const KernelResult& result, Path path) { return result.OverFloor(path); });
+  }
+  ratios("standard and fast: time per lane with n = 16 over n = 4096", 1.5, {Path::kStandard, Path::kFast},
+         [](const KernelResult& result, Path path) { return result[path].ShortOverLong(); });
+}
+
+}  // namespace microlane
