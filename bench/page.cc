@@ -61,8 +61,8 @@ body { font: 15px/1.5 system-ui, sans-serif; color: #222; max-width: 1500px; mar
 h1 { font-size: 1.7em; } h2 { margin-top: 2.2em; border-bottom: 1px solid #ccc; }
 table { border-collapse: collapse; font-size: 13px; font-variant-numeric: tabular-nums; }
 th, td { padding: 2px 8px; text-align: right; border-bottom: 1px solid #eee; white-space: nowrap; }
-th { position: sticky; top: 0; background: #f4f4f4; vertical-align: bottom; }
-td:first-child, th:first-child { text-align: left; font-family: ui-monospace, monospace; }
+th { background: #f4f4f4; vertical-align: bottom; }
+td:first-child, thead tr:first-child th:first-child { text-align: left; font-family: ui-monospace, monospace; }
 tr:hover td { background: #f6faff; }
 .bad { color: #b3261e; font-weight: 600; } .good { color: #1b7f3b; font-weight: 600; }
 .left td, .left th { text-align: left; }
@@ -123,10 +123,9 @@ std::string SpeedTable(const ReportData& data) {
 
 std::string ErrorTable(const ReportData& data) {
   std::vector<std::string> names(std::begin(kPathNames), std::end(kPathNames));
-  names.insert(names.end(),
-               {"high", "standard", "fast", "high", "standard", "fast", "textbook", "high", "textbook"});
+  names.insert(names.end(), {"high", "standard", "fast", "high", "standard", "fast", "high", "textbook"});
   std::string html = TableStart(
-      "<th rowspan=2>kernel<th colspan=6>largest error, ULP<th colspan=3>declared bound<th colspan=4>mean "
+      "<th rowspan=2>kernel<th colspan=6>largest error, ULP<th colspan=3>declared bound<th colspan=3>mean "
       "error, "
       "ULP<th colspan=2>points",
       names);
@@ -134,7 +133,7 @@ std::string ErrorTable(const ReportData& data) {
     html += "<tr>" + Cell(std::string(kKernels[result.kernel].id));
     for (std::size_t p = 0; p < kPaths; ++p) html += ErrorCell(result.path[p], p < 3);
     for (const Path path : kLanePaths) html += Cell(BoundText(result[path].bound));
-    for (const Path path : kTimedPaths) html += Cell(Short(result[path].mean_ulp));
+    for (const Path path : kLanePaths) html += Cell(Short(result[path].mean_ulp));
     html += Cell(fmt::format("{}", result[Path::kHigh].points));
     html += Cell(fmt::format("{}", result[Path::kTextbook].points));
     html += "</tr>\n";
@@ -142,30 +141,26 @@ std::string ErrorTable(const ReportData& data) {
   return html + "</tbody></table></div>\n";
 }
 
-std::string BatchTable(const ReportData& data) {
-  const std::vector<std::string> lanes = {"1", "16", "256", "4096"};
+std::string BatchTable(const ReportData& data, Parameters parameters) {
+  const std::size_t u = parameters == Parameters::kPerLane ? 0 : 1;
   std::string groups = "<th rowspan=2>kernel";
   std::vector<std::string> names;
-  for (const char* parameters : {"per-lane", "uniform"}) {
-    for (const Path path : kTimedPaths) {
-      groups += fmt::format("<th colspan=4>{}, {}", kPathNames[static_cast<std::size_t>(path)], parameters);
-      names.insert(names.end(), lanes.begin(), lanes.end());
-    }
+  for (const Path path : kTimedPaths) {
+    groups += fmt::format("<th colspan=4>{}", kPathNames[static_cast<std::size_t>(path)]);
+    names.insert(names.end(), {"1", "16", "256", "4096"});
   }
   groups += "<th colspan=3>16 over 4096";
   names.insert(names.end(), {"high", "standard", "fast"});
   std::string html = TableStart(groups, names);
   for (const KernelResult& result : data.kernels) {
+    if (u == 1 && !HasParameters(result.kernel)) continue;
     html += "<tr>" + Cell(std::string(kKernels[result.kernel].id));
-    for (std::size_t u = 0; u < 2; ++u) {
-      for (const Path path : kTimedPaths) {
-        const PathResult& times = result[path];
-        html += Cell(times.latency[u] > 0 ? Short(times.latency[u]) : "");
-        for (const Timing& time : times.batch[u]) html += Cell(time.min > 0 ? Short(time.min) : "");
-      }
+    for (const Path path : kTimedPaths) {
+      html += Cell(Short(result[path].latency[u]));
+      for (const Timing& time : result[path].batch[u]) html += Cell(Short(time.min));
     }
     for (const Path path : kLanePaths) {
-      const double ratio = result[path].ShortOverLong();
+      const double ratio = result[path].batch[u][0].min / result[path].batch[u][kLongBatch].min;
       html += Cell(Short(ratio), ratio > 1.5 && path != Path::kHigh ? "bad" : "");
     }
     html += "</tr>\n";
@@ -175,18 +170,19 @@ std::string BatchTable(const ReportData& data) {
 
 std::string StabilityTable(const ReportData& data) {
   std::string html = TableStart(
-      "<th rowspan=2>row<th rowspan=2>cases<th rowspan=2>kernels<th rowspan=2>points<th colspan=4>largest "
+      "<th rowspan=2>row<th rowspan=2>cases<th rowspan=2>kernels<th rowspan=2>points<th colspan=5>largest "
       "error "
-      "over declared bound, and where<th rowspan=2>NaN, inf<th colspan=2>textbook<th rowspan=2>result",
-      {"high", "standard", "fast", "double", "largest error, ULP", "NaN, inf"});
+      "over declared bound<th rowspan=2>NaN, inf<th colspan=2>textbook<th rowspan=2>result",
+      {"high", "standard", "fast", "double", "largest in", "error, ULP", "NaN, inf"});
   for (const StabilityRow& row : StabilityRows(data)) {
     html += "<tr>" + Cell(row.row) + Cell(Escaped(row.what), "text") + Cell(fmt::format("{}", row.kernels)) +
             Cell(fmt::format("{}", row.points));
+    std::size_t worst = 0;
     for (std::size_t p = 0; p < kStabilityPaths; ++p) {
-      html += Cell(fmt::format("{}<br><small>{}</small>", Short(row.over_bound[p]),
-                               row.over_bound[p] > 0 ? kKernels[row.worst_kernel[p]].id : ""),
-                   row.over_bound[p] <= 1 ? "" : "bad");
+      if (row.over_bound[p] > row.over_bound[worst]) worst = p;
+      html += Cell(Short(row.over_bound[p]), row.over_bound[p] <= 1 ? "" : "bad");
     }
+    html += Cell(fmt::format("{}, {}", kKernels[row.worst_kernel[worst]].id, kStabilityNames[worst]));
     html += Cell(fmt::format("{}", row.nan_count), row.nan_count == 0 ? "" : "bad");
     html += Cell(Short(row.textbook.max_ulp)) + Cell(fmt::format("{}", row.textbook.nan_count));
     html += Cell(row.holds ? "pass" : "FAIL", row.holds ? "good" : "bad") + "</tr>\n";
@@ -324,10 +320,10 @@ std::string MakePage(const ReportData& data, const std::filesystem::path& folder
   html +=
       "</div>\n<h2>Batches</h2>\n<p>Nanoseconds per lane in batches of 16, 256 and 4096 lanes, and of one "
       "lane that "
-      "waits for the result of the one before (latency), with parameters per lane and one for the batch. "
-      "Kernels "
-      "without parameters have the first only.</p>\n" +
-      BatchTable(data);
+      "waits for the result of the one before (1: the latency), with parameters per lane.</p>\n" +
+      BatchTable(data, Parameters::kPerLane) +
+      "<p>The same with one value of each parameter for the batch.</p>\n" +
+      BatchTable(data, Parameters::kUniform);
   html += "<h2>The machine</h2>\n<p>Nanoseconds per instruction when nothing else runs, target " +
           data.target + ".</p>\n" + CeilingTable(data);
   if (!data.targets.empty()) {

@@ -44,7 +44,7 @@ Floor MeasureFloor(std::size_t kernel, Accuracy accuracy, Parameters parameters)
 
   // A batch less a short one: what a call costs by itself falls out. Some vectors of a batch take a longer
   // path, so it has many.
-  const std::size_t few = 16, many = few + (accuracy == Accuracy::kHigh ? 64 : 256);
+  const std::size_t few = 16, many = few + (accuracy == Accuracy::kHigh ? 64 : 512);
   const Workload workload(kernel, many, parameters);
   RunKernel(kernel, accuracy, workload.call(), few);
   floor.per_vector = CountOperations([&] { RunKernel(kernel, accuracy, workload.call(), many); });

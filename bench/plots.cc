@@ -314,12 +314,8 @@ std::string WritePlots(const ReportData& data, const std::filesystem::path& fold
   }
   for (std::size_t i = 0; i < plots.size(); ++i) {
     progress(i, plots.size());
-    const int width = i < overviews ? 1150
-                      : i < wide    ? 1000
-                                    : 620,
-              height = i < overviews ? rows
-                       : i < wide    ? 760
-                                     : 340;
+    const int width = i < overviews ? 1150 : i < wide ? 1000 : 620;
+    const int height = i < overviews ? rows : i == overviews ? 440 : i < wide ? 760 : 340;
     const std::string error = Draw(folder, plots[i].first, width, height, plots[i].second);
     if (!error.empty()) return error;
   }

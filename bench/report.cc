@@ -35,8 +35,10 @@ namespace fs = std::filesystem;
 struct Request {
   std::string out = "report", target;
   std::uint64_t samples = 20000, seed = 1;
-  double seconds = 0.02;
+  double seconds = 0.03;
 };
+
+constexpr int kRounds = 3;
 
 // One line on standard error that is written over on a terminal.
 class Progress {
@@ -85,33 +87,47 @@ std::string Date() {
                      utc.tm_hour, utc.tm_min);
 }
 
+// One round over all batches of one kernel; keeps what is less than before.
+void TimeKernel(std::size_t k, double seconds, KernelResult& result) {
+  for (const Parameters parameters : {Parameters::kPerLane, Parameters::kUniform}) {
+    const bool per_lane = parameters == Parameters::kPerLane;
+    if (!per_lane && !HasParameters(k)) continue;
+    const std::size_t u = per_lane ? 0 : 1;
+    for (std::size_t b = kBatches; b-- > 0;) {
+      const bool main = per_lane && b == kLongBatch;
+      const Workload workload(k, kBatchLanes[b], parameters);
+      for (std::size_t p = 0; p < kPaths; ++p) {
+        const Path path = static_cast<Path>(p);
+        const bool is_scalar = path == Path::kScalarFloat || path == Path::kScalarDouble;
+        if (is_scalar && !main) continue;
+        const Timing time = MeasurePath(k, path, workload, main ? seconds : seconds / 4);
+        Timing& best = result[path].batch[u][b];
+        if (best.min == 0 || time.min < best.min) best = time;
+        if (main) result[path].slowest_round = std::max(result[path].slowest_round, time.min);
+      }
+    }
+    for (const Path path : {Path::kHigh, Path::kStandard, Path::kFast, Path::kTextbook}) {
+      const double latency = MeasureLatency(k, path, parameters, seconds / 4);
+      double& best = result[path].latency[u];
+      if (best == 0 || latency < best) best = latency;
+    }
+  }
+}
+
+// Rounds lie apart, so that no kernel falls altogether into a time when the machine was busy.
 void MeasureTimes(const Request& request, const Progress& progress, ReportData& data) {
+  for (std::size_t k = 0; k < kNumKernels; ++k) data.kernels.push_back({k, {}});
+  for (int round = 0; round < kRounds; ++round) {
+    for (std::size_t k = 0; k < kNumKernels; ++k) {
+      progress.Show(fmt::format("timing, round {}/{},", round + 1, kRounds), k, kNumKernels, kKernels[k].id);
+      TimeKernel(k, request.seconds / kRounds, data.kernels[k]);
+    }
+  }
   for (std::size_t k = 0; k < kNumKernels; ++k) {
-    progress.Show("timing", k, kNumKernels, kKernels[k].id);
-    KernelResult result{k, {}};
-    for (const Parameters parameters : {Parameters::kPerLane, Parameters::kUniform}) {
-      const bool per_lane = parameters == Parameters::kPerLane;
-      if (!per_lane && !HasParameters(k)) continue;
-      const std::size_t u = per_lane ? 0 : 1;
-      for (std::size_t b = kBatches; b-- > 0;) {
-        const bool main = per_lane && b == kLongBatch;
-        const Workload workload(k, kBatchLanes[b], parameters);
-        for (std::size_t p = 0; p < kPaths; ++p) {
-          const Path path = static_cast<Path>(p);
-          const bool is_scalar = path == Path::kScalarFloat || path == Path::kScalarDouble;
-          if (is_scalar && !main) continue;
-          result[path].batch[u][b] =
-              MeasurePath(k, path, workload, main ? request.seconds : request.seconds / 4);
-        }
-      }
-      for (const Path path : {Path::kHigh, Path::kStandard, Path::kFast, Path::kTextbook}) {
-        result[path].latency[u] = MeasureLatency(k, path, parameters, request.seconds / 4);
-      }
-    }
+    progress.Show("counting operations", k, kNumKernels, kKernels[k].id);
     for (const Path path : kLanePaths) {
-      result[path].floor = MeasureFloor(k, AccuracyOf(path), Parameters::kPerLane);
+      data.kernels[k][path].floor = MeasureFloor(k, AccuracyOf(path), Parameters::kPerLane);
     }
-    data.kernels.push_back(result);
   }
 }
 
@@ -130,17 +146,11 @@ void MeasureOtherTargets(const Request& request, const Progress& progress, Repor
   ChooseTarget(data.target);
 }
 
-// How far the median repetition lies above the least.
+// How far the slowest round lies above the best.
 void JudgeNoise(ReportData& data) {
   std::vector<double> excess;
   for (const KernelResult& result : data.kernels) {
-    for (const PathResult& path : result.path) {
-      for (const auto& batches : path.batch) {
-        for (const Timing& time : batches) {
-          if (time.min > 0) excess.push_back(time.median / time.min - 1);
-        }
-      }
-    }
+    for (const PathResult& path : result.path) excess.push_back(path.slowest_round / path.time().min - 1);
   }
   std::sort(excess.begin(), excess.end());
   data.noise_median = excess[excess.size() / 2];
@@ -148,7 +158,7 @@ void JudgeNoise(ReportData& data) {
 }
 
 // The rows of the stiff and extreme cases that apply to a kernel, under every accuracy and by the textbook
-// code. The rows of all kernels are kept together.
+// code.
 TextbookError MeasureExtremes(std::size_t kernel, ReportData& data) {
   TextbookError textbook;
   const std::vector<ExtremeCase> cases = ExtremeCases(kernel);
@@ -176,14 +186,25 @@ TextbookError MeasureExtremes(std::size_t kernel, ReportData& data) {
     }
     result.textbook = MeasureTextbook(kernel, points);
     textbook += result.textbook;
-    auto place =
-        std::find_if(data.stability.rbegin(), data.stability.rend(), [&](const StabilityResult& other) {
-          return other.row == row;
-        }).base();
-    if (place == data.stability.begin()) place = data.stability.end();
-    data.stability.insert(place, result);
+    data.stability.push_back(result);
   }
   return textbook;
+}
+
+// Puts the results of a row together, rows in the order of the kernel that has most.
+void SortExtremes(ReportData& data) {
+  std::vector<std::vector<std::string>> rows(kNumKernels);
+  for (const StabilityResult& result : data.stability) rows[result.kernel].push_back(result.row);
+  std::vector<std::string> order = *std::max_element(
+      rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
+  for (const StabilityResult& result : data.stability) {
+    if (std::find(order.begin(), order.end(), result.row) == order.end()) order.push_back(result.row);
+  }
+  const auto rank = [&](const StabilityResult& result) {
+    return std::find(order.begin(), order.end(), result.row) - order.begin();
+  };
+  std::stable_sort(data.stability.begin(), data.stability.end(),
+                   [&](const StabilityResult& a, const StabilityResult& b) { return rank(a) < rank(b); });
 }
 
 void MeasureErrors(const Request& request, const Progress& progress, ReportData& data) {
@@ -249,6 +270,7 @@ void Run(const Request& request) {
   JudgeNoise(data);
   MeasureOtherTargets(request, progress, data);
   MeasureErrors(request, progress, data);
+  SortExtremes(data);
   data.glasses = MeasureGlasses();
   SetGoals(data);
   progress.Clear();
@@ -289,7 +311,7 @@ void AddReport(CLI::App& app) {
   report->add_option("--seed", request->seed, "Of the random points (the default: 1)")->check(RefuseNegative);
   report
       ->add_option("--seconds", request->seconds,
-                   "How long to repeat each measurement of time (the default: 0.02)")
+                   "How long to repeat each measurement of time, in all rounds (the default: 0.03)")
       ->check(RefuseNegative);
   report->footer(
       "Writes index.html, which needs no other file, and beside it the tables as CSV, readme_table.md, and "

@@ -21,7 +21,8 @@ struct PathResult {
   // parameters and the longest batch.
   Timing batch[2][kBatches];
   double latency[2] = {};
-  double max_ulp = 0;  // over the outputs and all points; infinite where one is NaN without cause
+  double slowest_round = 0;  // least time of the worst round, where the batch above is that of the best
+  double max_ulp = 0;        // over the outputs and all points; infinite where one is NaN without cause
   double mean_ulp = 0;
   std::uint64_t points = 0, nan_count = 0;
   // Of high, standard and fast:
@@ -77,12 +78,12 @@ struct ReportData {
   unsigned processors = 0;
   std::uint64_t samples = 0;  // random points of each kernel and accuracy
   double noise_median = 0,
-         noise_tenth = 0;  // of median over least time less 1: the median, and the 9th decile
+         noise_tenth = 0;  // of the slowest over the best round less 1: median, 9th decile
   double seconds = 0;      // the whole run
   Ceilings ceilings;
   std::vector<KernelResult> kernels;
   std::vector<TargetTime> targets;
-  std::vector<StabilityResult> stability;  // rows together, in the order of their first appearance
+  std::vector<StabilityResult> stability;  // the results of a row together
   std::vector<GlassCurve> glasses;
   std::vector<Goal> goals;
 };

@@ -95,9 +95,9 @@ std::string Circumstances(const ReportData& data) {
 
 std::string Noise(const ReportData& data) {
   return fmt::format(
-      "Times are the least over repetitions; the median repetition took {:.0f}% longer in the middle case "
-      "and "
-      "at least {:.0f}% longer in one of ten",
+      "Times are the least of three rounds; the slowest round took {:.1f}% longer in the middle case and "
+      "{:.0f}% or "
+      "more in one of ten",
       100 * data.noise_median, 100 * data.noise_tenth);
 }
 
