@@ -21,6 +21,15 @@ void Fail(std::string_view message) {
   std::exit(kFailure);
 }
 
+void FailWithoutCommand(const CLI::App& app, std::string_view given) {
+  std::string message = given.empty() ? "which command?" : fmt::format("unknown command '{}';", given);
+  message += " there are:";
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    message += " " + command->get_name();
+  }
+  Fail(message);
+}
+
 void UseTarget(const std::string& target, std::string_view others) {
   if (target.empty()) others = "";
   const std::string message = target.empty() ? TargetEnvironmentError() : ChooseTarget(target);
@@ -47,8 +56,9 @@ std::vector<std::size_t> SelectKernels(const std::vector<std::string>& ids) {
       const std::string_view known = kKernels[k].id;
       if (known == id || known.substr(0, known.find('.')) == id) selected.push_back(k);
     }
-    if (selected.size() == before)
+    if (selected.size() == before) {
       Fail(fmt::format("unknown kernel '{}'; `microlane list` names them all", id));
+    }
   }
   return selected;
 }

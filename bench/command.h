@@ -25,6 +25,9 @@ void AddReport(CLI::App& app);
 // One line on standard error; ends the program with kFailure.
 [[noreturn]] void Fail(std::string_view message);
 
+// Names the subcommands; `given` stands where one is expected.
+[[noreturn]] void FailWithoutCommand(const CLI::App& app, std::string_view given);
+
 // Makes batch calls use `target` ("": as chosen). Fails with the library's message, followed by `others`, if
 // there is no such target, or if the environment variable MICROLANE_TARGET names none.
 void UseTarget(const std::string& target, std::string_view others = "");

@@ -70,7 +70,9 @@ void Latency(benchmark::State& state, std::size_t kernel, Path path, const std::
   if (!target.empty()) ChooseTarget(target);
   Chain chain(kernel, parameters);
   const auto run = [&](const Call<float>& call) { RunPath(kernel, path, call, 1); };
-  Repeat(state, 1, 0, 0, [&] { chain.Step(run); });
+  const double textbook =
+      path == Path::kTextbook ? 0 : MeasureLatency(kernel, Path::kTextbook, parameters, 0.005);
+  Repeat(state, 1, textbook, 0, [&] { chain.Step(run); });
 }
 
 void Textbook(benchmark::State& state, std::size_t kernel, Parameters parameters, std::size_t n) {

@@ -41,7 +41,7 @@ void PrintJson(const std::vector<std::size_t>& kernels) {
   for (const std::size_t k : kernels) {
     const Kernel& kernel = kKernels[k];
     const Names inputs = Split(kernel.inputs), outputs = Split(kernel.outputs);
-    fmt::print("  {{\"id\": {}, \"inputs\": [", Quoted(kernel.id));
+    fmt::print(R"(  {{"id": {}, "inputs": [)", Quoted(kernel.id));
     for (std::size_t i = 0; i < inputs.count; ++i) {
       const Input& input = FindInput(inputs.name[i]);
       fmt::print(R"({}{{"name": {}, "low": {}, "high": {}, "may_be_uniform": {}, "meaning": {}}})",
@@ -55,7 +55,7 @@ void PrintJson(const std::vector<std::size_t>& kernels) {
                  Quoted(output.unit), Quoted(MetricName(MetricOf(kernel, output.name))));
     }
     const Bounds& bounds = kernel.bounds;
-    fmt::print("], \"source\": {}, \"note\": {}, \"has_transport\": {}, \"bounds\": ", Quoted(kernel.source),
+    fmt::print(R"(], "source": {}, "note": {}, "has_transport": {}, "bounds": )", Quoted(kernel.source),
                Quoted(kernel.note), kernel.has_transport);
     fmt::print(R"({{"high": {}, "standard": {}, "fast": {}, "standard_without_fma": {}, "double": {}}}}}{})",
                bounds.high, bounds.standard, bounds.fast, bounds.standard_nofma, bounds.double_lanes,

@@ -1,8 +1,5 @@
 // The command `microlane`.
-#include <fmt/core.h>
-
 #include <cstdio>
-#include <string>
 
 #include "command.h"
 
@@ -23,10 +20,7 @@ int main(int argc, char** argv) {
     return app.exit(help);
   } catch (const CLI::RequiredError& error) {
     if (!app.get_subcommands().empty()) microlane::Fail(error.what());
-    std::string message = argc > 1 ? fmt::format("unknown command '{}'", argv[1]) : "which command?";
-    message += argc > 1 ? "; there are:" : " There are:";
-    for (const CLI::App* command : app.get_subcommands({})) message += " " + command->get_name();
-    microlane::Fail(message);
+    microlane::FailWithoutCommand(app, argc > 1 ? argv[1] : "");
   } catch (const CLI::ParseError& error) {
     microlane::Fail(error.what());
   } catch (const std::exception& error) {

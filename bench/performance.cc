@@ -89,19 +89,20 @@ Accuracy AccuracyOf(Path path) {
 void RunPath(std::size_t kernel, Path path, const Call<float>& call, std::size_t n) {
   switch (path) {
     case Path::kTextbook:
-      return textbook::Run(kernel, call, n);
+      textbook::Run(kernel, call, n);
+      break;
     case Path::kScalarFloat:
-      return RunScalar<float>(kernel, call, n);
+      RunScalar<float>(kernel, call, n);
+      break;
     case Path::kScalarDouble:
-      return RunScalar<double>(kernel, call, n);
+      RunScalar<double>(kernel, call, n);
+      break;
     case Path::kHigh:
-      return RunKernel(kernel, Accuracy::kHigh, call, n);
-    case Path::kFast:
-      return RunKernel(kernel, Accuracy::kFast, call, n);
     case Path::kStandard:
+    case Path::kFast:
+      RunKernel(kernel, AccuracyOf(path), call, n);
       break;
   }
-  RunKernel(kernel, Accuracy::kStandard, call, n);
 }
 
 Chain::Chain(std::size_t kernel, Parameters parameters)

@@ -203,8 +203,10 @@ void SortExtremes(ReportData& data) {
   const auto rank = [&](const StabilityResult& result) {
     return std::find(order.begin(), order.end(), result.row) - order.begin();
   };
-  std::stable_sort(data.stability.begin(), data.stability.end(),
-                   [&](const StabilityResult& a, const StabilityResult& b) { return rank(a) < rank(b); });
+  std::sort(data.stability.begin(), data.stability.end(),
+            [&](const StabilityResult& a, const StabilityResult& b) {
+              return rank(a) != rank(b) ? rank(a) < rank(b) : a.kernel < b.kernel;
+            });
 }
 
 void MeasureErrors(const Request& request, const Progress& progress, ReportData& data) {

@@ -57,8 +57,8 @@ void WriteReadmeTable(const ReportData& data, Csv& table) {
     const KernelResult& result = data.kernels[KernelIndex(id)];
     std::string row = fmt::format("| `{}` | {} ns", id, Short(result[Path::kTextbook].time().min));
     for (const Path path : kLanePaths) {
-      row += fmt::format(" | {} ns, {} times, {} ULP", Short(result[path].time().min),
-                         Short(result.Speedup(path)), Short(result[path].max_ulp));
+      row += fmt::format(" | {} ns, {}×, {} ULP", Short(result[path].time().min), Short(result.Speedup(path)),
+                         Short(result[path].max_ulp));
     }
     table.Line("{} |", row);
   }
@@ -138,7 +138,7 @@ void WriteTables(const ReportData& data, const fs::path& folder) {
   Csv times(folder / "times.csv", "kernel,path,target,parameters,lanes,ns_per_lane,median_ns_per_lane");
   for (const KernelResult& result : data.kernels) {
     for (const Path path : kTimedPaths) {
-      const std::string_view target = path == Path::kTextbook ? "" : data.target;
+      const std::string target = path == Path::kTextbook ? "" : data.target;
       for (std::size_t u = 0; u < (HasParameters(result.kernel) ? 2 : 1); ++u) {
         const std::string start = fmt::format("{},{},{},{}", kKernels[result.kernel].id, PathName(path),
                                               target, u == 0 ? "per_lane" : "uniform");
@@ -208,7 +208,7 @@ void WriteTables(const ReportData& data, const fs::path& folder) {
 
   Csv goals(folder / "goals.csv", "figure,goal,reached,met");
   for (const Goal& goal : data.goals) {
-    goals.Line("\"{}\",\"{}\",\"{}\",{}", goal.what, goal.goal, goal.reached, goal.met ? "yes" : "no");
+    goals.Line(R"("{}","{}","{}",{})", goal.what, goal.goal, goal.reached, goal.met ? "yes" : "no");
   }
   goals.Close();
 
