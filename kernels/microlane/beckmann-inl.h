@@ -47,15 +47,14 @@ struct Beckmann {
   }
 
   // Lambda = factor exp(-a^2) / vz with a = vz/s (Heitz 2014 Eq. 69): factor = (1 - sqrt(pi) a erfcx(a)) s /
-  // (2 sqrt(pi)), every part positive. Float lanes carry
-  // the error of a^2, which exp multiplies.
+  // (2 sqrt(pi)), every part positive. a^2 stops at `largest_a2`. Float lanes carry the error of a^2, which
+  // exp multiplies.
   template <Accuracy A, class D, class... P>
-  static HWY_INLINE void LambdaFactors(D d, Vec<D>& factor, Vec<D>& a2, Vec<D>& a2_tail, Vec<D> vx, Vec<D> vy,
-                                       Vec<D> z, P... p) {
+  static HWY_INLINE void LambdaFactors(D d, double largest_a2, Vec<D>& factor, Vec<D>& a2, Vec<D>& a2_tail,
+                                       Vec<D> vx, Vec<D> vy, Vec<D> z, P... p) {
     const Vec<D> z2 = hn::Mul(z, z), roughness2 = ProjectedRoughness2<Care::kPlain>(d, vx, vy, p...);
-    // A lower s^2 would only make an exp(-a^2) that is 0 already.
-    const Vec<D> least = hn::Max(hn::Mul(z2, Const(d, kIsFloat<D> ? 1.0 / 400 : 1.0 / 2000)),
-                                 Const(d, kIsFloat<D> ? 0x1p-80 : 0x1p-600));
+    const Vec<D> least =
+        hn::Max(hn::Mul(z2, Const(d, 1 / largest_a2)), Const(d, kIsFloat<D> ? 0x1p-80 : 0x1p-600));
     const Vec<D> s2 = hn::Max(least, roughness2);
     const Vec<D> s = hn::Sqrt(s2);
     const Vec<D> y = hn::MulAdd(z, Const(d, 0.3), s);
@@ -84,7 +83,8 @@ struct Beckmann {
   template <Care, Accuracy A, class D, class... P>
   static HWY_INLINE Vec<D> Masking(D d, Vec<D> vx, Vec<D> vy, Vec<D> z, P... p) {
     Vec<D> factor, a2, a2_tail;
-    LambdaFactors<A>(d, factor, a2, a2_tail, vx, vy, z, p...);
+    // Beyond, Lambda is lost beside 1, and exp would be subnormal.
+    LambdaFactors<A>(d, 64, factor, a2, a2_tail, vx, vy, z, p...);
     return hn::Add(z, ExpTimes<A>(d, hn::Neg(a2), hn::Neg(a2_tail), hn::Add(factor, factor)));
   }
 
@@ -93,7 +93,7 @@ struct Beckmann {
     static HWY_INLINE void Run(D d, Vec<D>& lambda, Vec<D>& unused, Vec<D> vx, Vec<D> vy, Vec<D> vz, P... p) {
       Vec<D> factor, a2, a2_tail;
       const Vec<D> z = hn::Abs(vz);
-      LambdaFactors<A>(d, factor, a2, a2_tail, vx, vy, z, p...);
+      LambdaFactors<A>(d, kIsFloat<D> ? 400 : 2000, factor, a2, a2_tail, vx, vy, z, p...);  // exp is 0 beyond
       const Vec<D> q = ExpTimes<A>(d, hn::Neg(a2), hn::Neg(a2_tail), hn::Div(factor, z));
       lambda = unused = ZeroIf(hn::Eq(hn::Add(hn::Abs(vx), hn::Abs(vy)), hn::Zero(d)), q);
     }

@@ -11,7 +11,9 @@
 #define MICROLANE_SRC_BATCH_INL_H_
 #endif
 
+#include <algorithm>
 #include <array>
+#include <cstring>
 #include <limits>
 #include <type_traits>
 #include <utility>
@@ -73,6 +75,30 @@ HWY_INLINE void StoreTotal(D d, Vec<D> y, T<D>* to, V... in) {
   hn::StoreU(y, d, to);
 }
 
+// The first `count` lanes from `from`, and its first lane in the others. Touches `count` lanes alone.
+template <class D>
+HWY_INLINE Vec<D> LoadTail(D d, const T<D>* from, std::size_t count) {
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2  // masked loads do not touch other lanes
+  const auto mask = hn::FirstN(d, count);
+  return hn::IfThenElse(mask, hn::MaskedLoad(mask, d, from), hn::Set(d, from[0]));
+#else
+  HWY_ALIGN T<D> lanes[hn::MaxLanes(D())];
+  hn::Store(hn::Set(d, from[0]), d, lanes);
+  std::memcpy(lanes, from, count * sizeof(T<D>));
+  return hn::Load(d, lanes);
+#endif
+}
+
+template <class D>
+HWY_INLINE void StoreTail(D d, const T<D>* lanes, T<D>* to, std::size_t count) {
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
+  hn::BlendedStore(hn::Load(d, lanes), hn::FirstN(d, count), d, to);
+#else
+  (void)d;
+  std::memcpy(to, lanes, count * sizeof(T<D>));
+#endif
+}
+
 // Runs K over n lanes. Inputs I... are loaded in every iteration (those that are one value from a spread
 // copy); `uniform` are the inputs behind them, the same in all iterations, so that what K derives from them
 // is hoisted.
@@ -87,9 +113,10 @@ HWY_INLINE void Loop(D d, const Call<T<D>>& call, std::size_t n, std::index_sequ
   std::size_t step[kIn];
   TD* out[kOut];
   for (std::size_t k = 0; k < kIn; ++k) {
-    if (call.uniform[k]) hn::Store(hn::Set(d, call.in[k][0]), d, copy[k]);
-    in[k] = call.uniform[k] ? copy[k] : call.in[k];
-    step[k] = call.uniform[k] ? 0 : 1;
+    const bool spread = k >= Shape<K>::kPerLane && call.uniform[k];
+    if (spread) hn::Store(hn::Set(d, call.in[k][0]), d, copy[k]);
+    in[k] = spread ? copy[k] : call.in[k];
+    step[k] = spread ? 0 : 1;
   }
   for (std::size_t k = 0; k < kOut; ++k) out[k] = call.out[k];
   const Options<D> options{RadianceMask(d, call.transport)};
@@ -122,18 +149,16 @@ HWY_INLINE void Loop(D d, const Call<T<D>>& call, std::size_t n, std::index_sequ
       body(i, hn::LoadU(d, in[I] + i * step[I])..., uniform...);
     }
     if (tail || rest == 0) break;
-    // The tail goes through the same code as one whole vector of copies; lanes beyond it repeat its first.
+    // The tail goes through the same code as one whole vector of copies.
     for (std::size_t k = 0; k < kIn; ++k) {
-      if (step[k] == 0) continue;
-      for (std::size_t j = 0; j < lanes; ++j) copy[k][j] = call.in[k][whole + (j < rest ? j : 0)];
+      if (step[k] != 0) hn::Store(LoadTail(d, call.in[k] + whole, rest), d, copy[k]);
       in[k] = copy[k];
     }
     for (std::size_t k = 0; k < kOut; ++k) out[k] = tail_out[k];
     count = lanes;
   }
-  for (std::size_t k = 0; k < kOut; ++k) {
-    for (std::size_t j = 0; j < rest; ++j) call.out[k][whole + j] = tail_out[k][j];
-  }
+  if (rest == 0) return;
+  for (std::size_t k = 0; k < kOut; ++k) StoreTail(d, tail_out[k], call.out[k] + whole, rest);
 }
 
 template <class K, Accuracy A, class TD, std::size_t... P>
@@ -188,13 +213,25 @@ void RunHigh(const Call<float>& call, std::size_t n) {
   }
 }
 
-// The table of kernels K... on this target.
+// The kernels K..., which stand together in the kernel list, on this target.
+template <class... K>
+struct FamilyKernels {
+  static constexpr std::size_t kFirst = std::min({Shape<K>::kIndex...});
+  static constexpr std::array<KernelCode, sizeof...(K)> Make() {
+    static_assert(std::max({Shape<K>::kIndex...}) == kFirst + sizeof...(K) - 1);
+    std::array<KernelCode, sizeof...(K)> code{};
+    ((code[Shape<K>::kIndex - kFirst] = {&RunLanes<K, Accuracy::kStandard, float>,
+                                         &RunLanes<K, Accuracy::kFast, float>, &RunHigh<K>,
+                                         &RunLanes<K, Accuracy::kStandard, double>}),
+     ...);
+    return code;
+  }
+  static constexpr std::array<KernelCode, sizeof...(K)> kCode = Make();
+};
+
 template <class... K>
 FamilyCode Family() {
-  static constexpr KernelCode kCode[] = {{K::kId, &RunLanes<K, Accuracy::kStandard, float>,
-                                          &RunLanes<K, Accuracy::kFast, float>, &RunHigh<K>,
-                                          &RunLanes<K, Accuracy::kStandard, double>}...};
-  return {kCode, sizeof...(K)};
+  return {FamilyKernels<K...>::kCode.data(), FamilyKernels<K...>::kFirst};
 }
 
 }  // namespace

@@ -63,58 +63,80 @@ namespace beckmann {
 template <class T>
 void D(std::size_t n, const DirectionsOf<T>& m, ParameterOf<T> alpha_x, ParameterOf<T> alpha_y, T* d,
        Accuracy accuracy) {
-  CallBuilder<T>().In(m).In(alpha_x).In(alpha_y).Out(d).Run(BeckmannTable(), "beckmann.D", accuracy, n);
+  CallBuilder<T>().In(m).In(alpha_x).In(alpha_y).Out(d).template Run<KernelIndex("beckmann.D")>(
+      BeckmannTable(), accuracy, n);
 }
 
 template <class T>
 void D(std::size_t n, const DirectionsOf<T>& m, ParameterOf<T> alpha, T* d, Accuracy accuracy) {
-  CallBuilder<T>().In(m).In(alpha).Out(d).Run(BeckmannTable(), "beckmann.D_isotropic", accuracy, n);
+  CallBuilder<T>().In(m).In(alpha).Out(d).template Run<KernelIndex("beckmann.D_isotropic")>(BeckmannTable(),
+                                                                                            accuracy, n);
 }
 
 template <class T>
 void Lambda(std::size_t n, const DirectionsOf<T>& v, ParameterOf<T> alpha_x, ParameterOf<T> alpha_y,
             T* lambda, Accuracy accuracy) {
-  CallBuilder<T>().In(v).In(alpha_x).In(alpha_y).Out(lambda).Run(BeckmannTable(), "beckmann.Lambda", accuracy,
-                                                                 n);
+  CallBuilder<T>().In(v).In(alpha_x).In(alpha_y).Out(lambda).template Run<KernelIndex("beckmann.Lambda")>(
+      BeckmannTable(), accuracy, n);
 }
 
 template <class T>
 void Lambda(std::size_t n, const DirectionsOf<T>& v, ParameterOf<T> alpha, T* lambda, Accuracy accuracy) {
-  CallBuilder<T>().In(v).In(alpha).Out(lambda).Run(BeckmannTable(), "beckmann.Lambda_isotropic", accuracy, n);
+  CallBuilder<T>().In(v).In(alpha).Out(lambda).template Run<KernelIndex("beckmann.Lambda_isotropic")>(
+      BeckmannTable(), accuracy, n);
 }
 
 template <class T>
 void G1(std::size_t n, const DirectionsOf<T>& v, const DirectionsOf<T>& m, ParameterOf<T> alpha_x,
         ParameterOf<T> alpha_y, T* g1, Accuracy accuracy) {
-  CallBuilder<T>().In(v).In(m).In(alpha_x).In(alpha_y).Out(g1).Run(BeckmannTable(), "beckmann.G1", accuracy,
-                                                                   n);
+  CallBuilder<T>().In(v).In(m).In(alpha_x).In(alpha_y).Out(g1).template Run<KernelIndex("beckmann.G1")>(
+      BeckmannTable(), accuracy, n);
 }
 
 template <class T>
 void G1(std::size_t n, const DirectionsOf<T>& v, const DirectionsOf<T>& m, ParameterOf<T> alpha, T* g1,
         Accuracy accuracy) {
-  CallBuilder<T>().In(v).In(m).In(alpha).Out(g1).Run(BeckmannTable(), "beckmann.G1_isotropic", accuracy, n);
+  CallBuilder<T>().In(v).In(m).In(alpha).Out(g1).template Run<KernelIndex("beckmann.G1_isotropic")>(
+      BeckmannTable(), accuracy, n);
 }
 
 template <class T>
 void G1Rational(std::size_t n, const DirectionsOf<T>& v, const DirectionsOf<T>& m, ParameterOf<T> alpha_x,
                 ParameterOf<T> alpha_y, T* g1, Accuracy accuracy) {
-  CallBuilder<T>().In(v).In(m).In(alpha_x).In(alpha_y).Out(g1).Run(BeckmannTable(), "beckmann.G1_rational",
-                                                                   accuracy, n);
+  CallBuilder<T>()
+      .In(v)
+      .In(m)
+      .In(alpha_x)
+      .In(alpha_y)
+      .Out(g1)
+      .template Run<KernelIndex("beckmann.G1_rational")>(BeckmannTable(), accuracy, n);
 }
 
 template <class T>
 void SampleNormal(std::size_t n, const T* u1, const T* u2, ParameterOf<T> alpha_x, ParameterOf<T> alpha_y,
                   MutableDirections<T> m, T* pdf, Accuracy accuracy) {
-  CallBuilder<T>().In(u1).In(u2).In(alpha_x).In(alpha_y).Out(m).Out(pdf).Run(
-      BeckmannTable(), "beckmann.sample_normal", accuracy, n);
+  CallBuilder<T>()
+      .In(u1)
+      .In(u2)
+      .In(alpha_x)
+      .In(alpha_y)
+      .Out(m)
+      .Out(pdf)
+      .template Run<KernelIndex("beckmann.sample_normal")>(BeckmannTable(), accuracy, n);
 }
 
 template <class T>
 void SampleNormalWidened(std::size_t n, const T* u1, const T* u2, const T* cos_i, ParameterOf<T> alpha_x,
                          ParameterOf<T> alpha_y, MutableDirections<T> m, T* pdf, Accuracy accuracy) {
-  CallBuilder<T>().In(u1).In(u2).In(cos_i).In(alpha_x).In(alpha_y).Out(m).Out(pdf).Run(
-      BeckmannTable(), "beckmann.sample_normal_widened", accuracy, n);
+  CallBuilder<T>()
+      .In(u1)
+      .In(u2)
+      .In(cos_i)
+      .In(alpha_x)
+      .In(alpha_y)
+      .Out(m)
+      .Out(pdf)
+      .template Run<KernelIndex("beckmann.sample_normal_widened")>(BeckmannTable(), accuracy, n);
 }
 
 #define MICROLANE_INSTANTIATE(T)                                                                           \

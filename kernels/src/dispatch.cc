@@ -83,15 +83,4 @@ bool TargetHasFma(std::string_view name) {
 
 std::size_t ChosenTableIndex() { return Chosen().index.load(std::memory_order_relaxed); }
 
-const KernelCode& FindKernel(const FamilyFunction* table, std::string_view id) {
-  const FamilyCode family = table[ChosenTableIndex()]();
-  // The caller names a kernel of this family, mostly by the very literal that the table holds.
-  for (std::size_t i = 0; i < family.count; ++i) {
-    if (family.kernels[i].id.data() == id.data()) return family.kernels[i];
-  }
-  std::size_t i = 0;
-  while (family.kernels[i].id != id) ++i;
-  return family.kernels[i];
-}
-
 }  // namespace microlane

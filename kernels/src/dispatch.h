@@ -3,7 +3,6 @@
 #define MICROLANE_SRC_DISPATCH_H_
 
 #include <cstddef>
-#include <string_view>
 
 #include "microlane/kernel_list.h"
 #include "microlane/packets.h"
@@ -12,17 +11,16 @@ namespace microlane {
 
 // One kernel on one target.
 struct KernelCode {
-  std::string_view id;
   void (*standard)(const Call<float>&, std::size_t);
   void (*fast)(const Call<float>&, std::size_t);
   void (*high)(const Call<float>&, std::size_t);
   void (*double_lanes)(const Call<double>&, std::size_t);
 };
 
-// One family of kernels on one target.
+// One family of kernels on one target: those of the kernel list from index `first` on.
 struct FamilyCode {
   const KernelCode* kernels;
-  std::size_t count;
+  std::size_t first;
 };
 
 using FamilyFunction = FamilyCode (*)();
@@ -30,8 +28,11 @@ using FamilyFunction = FamilyCode (*)();
 // Index of the chosen target in the tables that HWY_EXPORT makes.
 std::size_t ChosenTableIndex();
 
-// The code of `id` within a family's dispatch table.
-const KernelCode& FindKernel(const FamilyFunction* table, std::string_view id);
+// The code of a kernel of the family, by its index in the kernel list.
+inline const KernelCode& CodeOf(const FamilyFunction* table, std::size_t kernel) {
+  const FamilyCode family = table[ChosenTableIndex()]();
+  return family.kernels[kernel - family.first];
+}
 
 inline void Run(const KernelCode& code, Accuracy accuracy, const Call<float>& call, std::size_t n) {
   (accuracy == Accuracy::kHigh   ? code.high
@@ -81,8 +82,11 @@ class CallBuilder {
     call_.transport = transport;
     return *this;
   }
-  void Run(const FamilyFunction* table, std::string_view id, Accuracy accuracy, std::size_t n) const {
-    microlane::Run(FindKernel(table, id), accuracy, call_, n);
+  // kKernel: index in the kernel list.
+  template <std::size_t kKernel>
+  void Run(const FamilyFunction* table, Accuracy accuracy, std::size_t n) const {
+    static_assert(kKernel < kNumKernels);
+    microlane::Run(CodeOf(table, kKernel), accuracy, call_, n);
   }
 
  private:

@@ -43,7 +43,11 @@ namespace fresnel {
 
 template <class T>
 void Dielectric(std::size_t n, const T* cos_i, ParameterOf<T> eta, T* reflectance, Accuracy accuracy) {
-  CallBuilder<T>().In(cos_i).In(eta).Out(reflectance).Run(FresnelTable(), "fresnel.dielectric", accuracy, n);
+  CallBuilder<T>()
+      .In(cos_i)
+      .In(eta)
+      .Out(reflectance)
+      .template Run<KernelIndex("fresnel.dielectric")>(FresnelTable(), accuracy, n);
 }
 
 template <class T>
@@ -53,7 +57,7 @@ void DielectricTransmittance(std::size_t n, const T* cos_i, ParameterOf<T> eta, 
       .In(cos_i)
       .In(eta)
       .Out(transmittance)
-      .Run(FresnelTable(), "fresnel.dielectric_transmittance", accuracy, n);
+      .template Run<KernelIndex("fresnel.dielectric_transmittance")>(FresnelTable(), accuracy, n);
 }
 
 template <class T>
@@ -62,7 +66,7 @@ void DielectricS(std::size_t n, const T* cos_i, ParameterOf<T> eta, T* reflectan
       .In(cos_i)
       .In(eta)
       .Out(reflectance)
-      .Run(FresnelTable(), "fresnel.dielectric_s", accuracy, n);
+      .template Run<KernelIndex("fresnel.dielectric_s")>(FresnelTable(), accuracy, n);
 }
 
 template <class T>
@@ -71,7 +75,7 @@ void DielectricP(std::size_t n, const T* cos_i, ParameterOf<T> eta, T* reflectan
       .In(cos_i)
       .In(eta)
       .Out(reflectance)
-      .Run(FresnelTable(), "fresnel.dielectric_p", accuracy, n);
+      .template Run<KernelIndex("fresnel.dielectric_p")>(FresnelTable(), accuracy, n);
 }
 
 #define MICROLANE_INSTANTIATE(T)                                                              \

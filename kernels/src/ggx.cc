@@ -41,42 +41,54 @@ namespace ggx {
 template <class T>
 void D(std::size_t n, const DirectionsOf<T>& m, ParameterOf<T> alpha_x, ParameterOf<T> alpha_y, T* d,
        Accuracy accuracy) {
-  CallBuilder<T>().In(m).In(alpha_x).In(alpha_y).Out(d).Run(GgxTable(), "ggx.D", accuracy, n);
+  CallBuilder<T>().In(m).In(alpha_x).In(alpha_y).Out(d).template Run<KernelIndex("ggx.D")>(GgxTable(),
+                                                                                           accuracy, n);
 }
 
 template <class T>
 void D(std::size_t n, const DirectionsOf<T>& m, ParameterOf<T> alpha, T* d, Accuracy accuracy) {
-  CallBuilder<T>().In(m).In(alpha).Out(d).Run(GgxTable(), "ggx.D_isotropic", accuracy, n);
+  CallBuilder<T>().In(m).In(alpha).Out(d).template Run<KernelIndex("ggx.D_isotropic")>(GgxTable(), accuracy,
+                                                                                       n);
 }
 
 template <class T>
 void Lambda(std::size_t n, const DirectionsOf<T>& v, ParameterOf<T> alpha_x, ParameterOf<T> alpha_y,
             T* lambda, Accuracy accuracy) {
-  CallBuilder<T>().In(v).In(alpha_x).In(alpha_y).Out(lambda).Run(GgxTable(), "ggx.Lambda", accuracy, n);
+  CallBuilder<T>().In(v).In(alpha_x).In(alpha_y).Out(lambda).template Run<KernelIndex("ggx.Lambda")>(
+      GgxTable(), accuracy, n);
 }
 
 template <class T>
 void Lambda(std::size_t n, const DirectionsOf<T>& v, ParameterOf<T> alpha, T* lambda, Accuracy accuracy) {
-  CallBuilder<T>().In(v).In(alpha).Out(lambda).Run(GgxTable(), "ggx.Lambda_isotropic", accuracy, n);
+  CallBuilder<T>().In(v).In(alpha).Out(lambda).template Run<KernelIndex("ggx.Lambda_isotropic")>(GgxTable(),
+                                                                                                 accuracy, n);
 }
 
 template <class T>
 void G1(std::size_t n, const DirectionsOf<T>& v, const DirectionsOf<T>& m, ParameterOf<T> alpha_x,
         ParameterOf<T> alpha_y, T* g1, Accuracy accuracy) {
-  CallBuilder<T>().In(v).In(m).In(alpha_x).In(alpha_y).Out(g1).Run(GgxTable(), "ggx.G1", accuracy, n);
+  CallBuilder<T>().In(v).In(m).In(alpha_x).In(alpha_y).Out(g1).template Run<KernelIndex("ggx.G1")>(
+      GgxTable(), accuracy, n);
 }
 
 template <class T>
 void G1(std::size_t n, const DirectionsOf<T>& v, const DirectionsOf<T>& m, ParameterOf<T> alpha, T* g1,
         Accuracy accuracy) {
-  CallBuilder<T>().In(v).In(m).In(alpha).Out(g1).Run(GgxTable(), "ggx.G1_isotropic", accuracy, n);
+  CallBuilder<T>().In(v).In(m).In(alpha).Out(g1).template Run<KernelIndex("ggx.G1_isotropic")>(GgxTable(),
+                                                                                               accuracy, n);
 }
 
 template <class T>
 void SampleNormal(std::size_t n, const T* u1, const T* u2, ParameterOf<T> alpha_x, ParameterOf<T> alpha_y,
                   MutableDirections<T> m, T* pdf, Accuracy accuracy) {
-  CallBuilder<T>().In(u1).In(u2).In(alpha_x).In(alpha_y).Out(m).Out(pdf).Run(GgxTable(), "ggx.sample_normal",
-                                                                             accuracy, n);
+  CallBuilder<T>()
+      .In(u1)
+      .In(u2)
+      .In(alpha_x)
+      .In(alpha_y)
+      .Out(m)
+      .Out(pdf)
+      .template Run<KernelIndex("ggx.sample_normal")>(GgxTable(), accuracy, n);
 }
 
 #define MICROLANE_INSTANTIATE(T)                                                                           \

@@ -103,40 +103,50 @@ namespace half_vector {
 template <class T>
 void Reflection(std::size_t n, const DirectionsOf<T>& wi, const DirectionsOf<T>& wo, MutableDirections<T> h,
                 Accuracy accuracy) {
-  CallBuilder<T>().In(wi).In(wo).Out(h).Run(HalfVectorTable(), "half_vector.reflection", accuracy, n);
+  CallBuilder<T>().In(wi).In(wo).Out(h).template Run<KernelIndex("half_vector.reflection")>(HalfVectorTable(),
+                                                                                            accuracy, n);
 }
 
 template <class T>
 void ReflectionJacobian(std::size_t n, const DirectionsOf<T>& wi, const DirectionsOf<T>& wo, T* jacobian,
                         Accuracy accuracy) {
-  CallBuilder<T>().In(wi).In(wo).Out(jacobian).Run(HalfVectorTable(), "half_vector.reflection_jacobian",
-                                                   accuracy, n);
+  CallBuilder<T>().In(wi).In(wo).Out(jacobian).template Run<KernelIndex("half_vector.reflection_jacobian")>(
+      HalfVectorTable(), accuracy, n);
 }
 
 template <class T>
 void ReflectionJacobian(std::size_t n, const T* cos_o, T* jacobian, Accuracy accuracy) {
-  CallBuilder<T>().In(cos_o).Out(jacobian).Run(HalfVectorTable(), "half_vector.reflection_jacobian_cos",
-                                               accuracy, n);
+  CallBuilder<T>().In(cos_o).Out(jacobian).template Run<KernelIndex("half_vector.reflection_jacobian_cos")>(
+      HalfVectorTable(), accuracy, n);
 }
 
 template <class T>
 void Refraction(std::size_t n, const DirectionsOf<T>& wi, const DirectionsOf<T>& wo, ParameterOf<T> eta,
                 MutableDirections<T> h, Accuracy accuracy) {
-  CallBuilder<T>().In(wi).In(wo).In(eta).Out(h).Run(HalfVectorTable(), "half_vector.refraction", accuracy, n);
+  CallBuilder<T>().In(wi).In(wo).In(eta).Out(h).template Run<KernelIndex("half_vector.refraction")>(
+      HalfVectorTable(), accuracy, n);
 }
 
 template <class T>
 void RefractionJacobian(std::size_t n, const DirectionsOf<T>& wi, const DirectionsOf<T>& wo,
                         ParameterOf<T> eta, T* jacobian, Accuracy accuracy) {
-  CallBuilder<T>().In(wi).In(wo).In(eta).Out(jacobian).Run(HalfVectorTable(),
-                                                           "half_vector.refraction_jacobian", accuracy, n);
+  CallBuilder<T>()
+      .In(wi)
+      .In(wo)
+      .In(eta)
+      .Out(jacobian)
+      .template Run<KernelIndex("half_vector.refraction_jacobian")>(HalfVectorTable(), accuracy, n);
 }
 
 template <class T>
 void RefractionJacobian(std::size_t n, const T* cos_i, const T* cos_o, ParameterOf<T> eta, T* jacobian,
                         Accuracy accuracy) {
-  CallBuilder<T>().In(cos_i).In(cos_o).In(eta).Out(jacobian).Run(
-      HalfVectorTable(), "half_vector.refraction_jacobian_cos", accuracy, n);
+  CallBuilder<T>()
+      .In(cos_i)
+      .In(cos_o)
+      .In(eta)
+      .Out(jacobian)
+      .template Run<KernelIndex("half_vector.refraction_jacobian_cos")>(HalfVectorTable(), accuracy, n);
 }
 
 #define MICROLANE_INSTANTIATE(T)                                                                        \
@@ -159,13 +169,14 @@ MICROLANE_INSTANTIATE(double)
 template <class T>
 void Reflect(std::size_t n, const DirectionsOf<T>& wi, const DirectionsOf<T>& m, MutableDirections<T> wo,
              Accuracy accuracy) {
-  CallBuilder<T>().In(wi).In(m).Out(wo).Run(HalfVectorTable(), "reflect", accuracy, n);
+  CallBuilder<T>().In(wi).In(m).Out(wo).template Run<KernelIndex("reflect")>(HalfVectorTable(), accuracy, n);
 }
 
 template <class T>
 void Refract(std::size_t n, const DirectionsOf<T>& wi, const DirectionsOf<T>& m, ParameterOf<T> eta,
              MutableDirections<T> wo, Accuracy accuracy) {
-  CallBuilder<T>().In(wi).In(m).In(eta).Out(wo).Run(HalfVectorTable(), "refract", accuracy, n);
+  CallBuilder<T>().In(wi).In(m).In(eta).Out(wo).template Run<KernelIndex("refract")>(HalfVectorTable(),
+                                                                                     accuracy, n);
 }
 
 #define MICROLANE_INSTANTIATE(T)                                                                           \

@@ -45,11 +45,11 @@ const FamilyFunction* Table(std::size_t kernel) {
 }  // namespace
 
 void RunKernel(std::size_t kernel, Accuracy accuracy, const Call<float>& call, std::size_t n) {
-  Run(FindKernel(Table(kernel), kKernels[kernel].id), accuracy, call, n);
+  Run(CodeOf(Table(kernel), kernel), accuracy, call, n);
 }
 
 void RunKernel(std::size_t kernel, const Call<double>& call, std::size_t n) {
-  Run(FindKernel(Table(kernel), kKernels[kernel].id), Accuracy::kStandard, call, n);
+  Run(CodeOf(Table(kernel), kernel), Accuracy::kStandard, call, n);
 }
 
 }  // namespace microlane

@@ -51,25 +51,32 @@ namespace phong {
 
 template <class T>
 void Exponent(std::size_t n, const T* alpha, T* exponent, Accuracy accuracy) {
-  CallBuilder<T>().In(alpha).Out(exponent).Run(PhongTable(), "phong.exponent", accuracy, n);
+  CallBuilder<T>().In(alpha).Out(exponent).template Run<KernelIndex("phong.exponent")>(PhongTable(), accuracy,
+                                                                                       n);
 }
 
 template <class T>
 void D(std::size_t n, const DirectionsOf<T>& m, ParameterOf<T> exponent, T* d, Accuracy accuracy) {
-  CallBuilder<T>().In(m).In(exponent).Out(d).Run(PhongTable(), "phong.D", accuracy, n);
+  CallBuilder<T>().In(m).In(exponent).Out(d).template Run<KernelIndex("phong.D")>(PhongTable(), accuracy, n);
 }
 
 template <class T>
 void G1(std::size_t n, const DirectionsOf<T>& v, const DirectionsOf<T>& m, ParameterOf<T> exponent, T* g1,
         Accuracy accuracy) {
-  CallBuilder<T>().In(v).In(m).In(exponent).Out(g1).Run(PhongTable(), "phong.G1", accuracy, n);
+  CallBuilder<T>().In(v).In(m).In(exponent).Out(g1).template Run<KernelIndex("phong.G1")>(PhongTable(),
+                                                                                          accuracy, n);
 }
 
 template <class T>
 void SampleNormal(std::size_t n, const T* u1, const T* u2, ParameterOf<T> exponent, MutableDirections<T> m,
                   T* pdf, Accuracy accuracy) {
-  CallBuilder<T>().In(u1).In(u2).In(exponent).Out(m).Out(pdf).Run(PhongTable(), "phong.sample_normal",
-                                                                  accuracy, n);
+  CallBuilder<T>()
+      .In(u1)
+      .In(u2)
+      .In(exponent)
+      .Out(m)
+      .Out(pdf)
+      .template Run<KernelIndex("phong.sample_normal")>(PhongTable(), accuracy, n);
 }
 
 #define MICROLANE_INSTANTIATE(T)                                                                        \

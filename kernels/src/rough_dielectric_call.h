@@ -3,7 +3,6 @@
 #define MICROLANE_SRC_ROUGH_DIELECTRIC_CALL_H_
 
 #include <cstddef>
-#include <string_view>
 
 #include "microlane/rough_dielectric.h"
 #include "src/dispatch.h"
@@ -50,16 +49,18 @@ class RoughDielectricCall {
 
   template <What kWhat, bool kReflects, bool kTransmits>
   void Run(JointMasking masking, Accuracy accuracy, std::size_t n) const {
-    constexpr std::string_view correlated = Id(kWhat, kReflects, kTransmits, false);
-    constexpr std::string_view separable = Id(kWhat, kReflects, kTransmits, kWhat != What::kPdf);
-    call_.Run(RoughDielectricTable<kNormals>(), masking == JointMasking::kSeparable ? separable : correlated,
-              accuracy, n);
+    constexpr std::size_t kCorrelated = Kernel(kWhat, kReflects, kTransmits, false);
+    constexpr std::size_t kSeparable = Kernel(kWhat, kReflects, kTransmits, kWhat != What::kPdf);
+    if (masking == JointMasking::kSeparable) {
+      call_.template Run<kSeparable>(RoughDielectricTable<kNormals>(), accuracy, n);
+    } else {
+      call_.template Run<kCorrelated>(RoughDielectricTable<kNormals>(), accuracy, n);
+    }
   }
 
  private:
-  static constexpr std::string_view Id(What what, bool reflects, bool transmits, bool separable) {
-    return kKernels[DielectricKernel(kNormals, FindDielectricQuantity(what, reflects, transmits, separable))]
-        .id;
+  static constexpr std::size_t Kernel(What what, bool reflects, bool transmits, bool separable) {
+    return DielectricKernel(kNormals, FindDielectricQuantity(what, reflects, transmits, separable));
   }
 
   CallBuilder<T> call_;
