@@ -34,7 +34,7 @@ struct Outputs {
 
 template <class D>
 struct Options {
-  hn::Mask<D> radiance;  // Transport::kRadiance
+  const hn::Mask<D>& radiance;  // Transport::kRadiance; a reference, as SVE has no members of vector type
 };
 
 template <class K>
@@ -119,7 +119,8 @@ HWY_INLINE void Loop(D d, const Call<T<D>>& call, std::size_t n, std::index_sequ
     step[k] = spread ? 0 : 1;
   }
   for (std::size_t k = 0; k < kOut; ++k) out[k] = call.out[k];
-  const Options<D> options{RadianceMask(d, call.transport)};
+  const auto radiance = RadianceMask(d, call.transport);
+  const Options<D> options{radiance};
   const auto body = [&](std::size_t i, auto... v) HWY_ATTR {
     Vec<D> o0 = hn::Zero(d), o1 = o0, o2 = o0, o3 = o0, o4 = o0, o5 = o0;
     K::template Eval<A>(d, options, Outputs<D>{o0, o1, o2, o3, o4, o5}, v...);
