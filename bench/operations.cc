@@ -126,7 +126,7 @@ Unit UnitOf(const Encoding& e) {
   return Unit::kLogic;
 }
 
-void Classify(const std::uint8_t* code, Operations& operations) {
+[[maybe_unused]] void Classify(const std::uint8_t* code, Operations& operations) {
   operations.all += 1;
   const Encoding e = Decode(code);
   if (!e.vector) return;
