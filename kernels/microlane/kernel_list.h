@@ -138,7 +138,7 @@ inline constexpr Bounds kHalfVector = {1, 5, 4096, 8, 1 << 28};  // double lanes
 inline constexpr Bounds kExponential = {1, 5, 4096, 8, 4096};
 inline constexpr Bounds kSampler = {1, 16, 4096, 24, 4096};
 inline constexpr Bounds kValue = {1, 40, 4096, 64, 1 << 20};
-inline constexpr Bounds kSample = {1, 40, 8192, 64, 1 << 20};  // kFast: the normal is within 2^-13, which refraction magnifies
+inline constexpr Bounds kSampleBounds = {1, 40, 8192, 64, 1 << 20};  // kFast: the normal is within 2^-13, which refraction magnifies
 inline constexpr Bounds kPhongSample = {1, 128, 8192, 128, 1 << 20};  // 66 at u1 = 2^-149, where pdf is subnormal
 
 inline constexpr Kernel kComponentKernels[] = {
@@ -231,8 +231,8 @@ struct DielectricFamily {
 };
 
 inline constexpr DielectricFamily kDielectricFamilies[] = {
-    {"rough_dielectric", "alpha_x alpha_y", "GGX: Walter 2007 Eqs. 33-36, stretched", kValue, kSample},
-    {"rough_dielectric_beckmann", "alpha_x alpha_y", "Beckmann: Walter 2007 Eqs. 25, 26, 28, 29, stretched", kValue, kSample},
+    {"rough_dielectric", "alpha_x alpha_y", "GGX: Walter 2007 Eqs. 33-36, stretched", kValue, kSampleBounds},
+    {"rough_dielectric_beckmann", "alpha_x alpha_y", "Beckmann: Walter 2007 Eqs. 25, 26, 28, 29, stretched", kValue, kSampleBounds},
     {"rough_dielectric_phong", "exponent", "Phong: Walter 2007 Eqs. 27, 30-32", kValue, kPhongSample},
 };
 // clang-format on
