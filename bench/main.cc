@@ -3,7 +3,7 @@
 
 #include "command.h"
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape): only memory can run out
   CLI::App app(
       "Microfacet BSDF kernels for packets: what there is, what it computes, its error and its speed.",
       "microlane");

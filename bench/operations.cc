@@ -49,7 +49,7 @@ Encoding Decode(const std::uint8_t* code) {
     e.opcode = code[three ? 3 : 2];
     e.memory = code[three ? 4 : 3] < 0xC0;
     const bool general = (e.map == 2 && e.opcode >= 0xF2) || (e.map == 3 && e.opcode >= 0xF0);
-    e.vector = !general && !(e.map == 1 && e.opcode == 0x77);
+    e.vector = !general && (e.map != 1 || e.opcode != 0x77);
     return e;
   }
   for (;; ++code) {
@@ -157,7 +157,8 @@ void OnStep(int, siginfo_t*, void* context) {
   auto& registers = static_cast<ucontext_t*>(context)->uc_mcontext.gregs;
   if (stepping && trace.size() < trace.capacity()) {
     registers[REG_EFL] |= kTrapFlag;
-    trace.push_back(reinterpret_cast<const std::uint8_t*>(registers[REG_RIP]));
+    trace.push_back(
+        reinterpret_cast<const std::uint8_t*>(registers[REG_RIP]));  // NOLINT(performance-no-int-to-ptr)
   } else {
     registers[REG_EFL] &= ~kTrapFlag;
   }

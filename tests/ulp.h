@@ -2,6 +2,7 @@
 #ifndef MICROLANE_TESTS_ULP_H_
 #define MICROLANE_TESTS_ULP_H_
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -53,7 +54,7 @@ double UlpError(T got, const oracle::Real& exact, const oracle::Real& scale) {
   } else if (scale != 0) {
     exponent = Exponent(scale);
     if (overflow) exponent -= Exponent(exact) - kMaxExponent;
-    if (exponent < kMinExponent) exponent = kMinExponent;
+    exponent = std::max(exponent, kMinExponent);
   }
   mpfr_mul_2si(error.backend().data(), error.backend().data(), Limits::digits - 1 - exponent, MPFR_RNDN);
   return std::abs(static_cast<double>(error));
