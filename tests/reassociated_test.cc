@@ -4,6 +4,10 @@
 #pragma GCC optimize("O3", "fp-contract=fast")
 #endif
 
+#include <cstddef>
+#include <string_view>
+#include <utility>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "reassociated_test.cc"
 #include "hwy/foreach_target.h"  // must stand before highway.h
@@ -11,73 +15,157 @@
 #include "microlane/fresnel-inl.h"
 #include "microlane/ggx-inl.h"
 #include "microlane/half_vector-inl.h"
-#include "microlane/rough_dielectric-inl.h"
+#include "microlane/phong-inl.h"
+#include "src/distribution_kernels-inl.h"
+#include "src/rough_dielectric_kernels-inl.h"
+
+#ifndef MICROLANE_TESTS_REASSOCIATED_CASE
+#define MICROLANE_TESTS_REASSOCIATED_CASE
+namespace microlane {
+struct Case {
+  std::string_view id;
+  void (*run)(const float* const* in, float* const* out, size_t n);
+};
+struct Cases {
+  const Case* begin_;
+  const Case* end_;
+  const Case* begin() const { return begin_; }
+  const Case* end() const { return end_; }
+};
+}  // namespace microlane
+#endif
 
 HWY_BEFORE_NAMESPACE();
 namespace microlane {
 namespace HWY_NAMESPACE {
 namespace {
 
-// Runs op(d, in, out) over whole vectors; n is a multiple of every vector's lanes.
-template <int kIn, int kOut, class Op>
-void OverVectors(const float* const* in, float* const* out, size_t n, const Op& op) {
-  const hn::ScalableTag<float> d;
+constexpr std::string_view kGgxD = "ggx.D", kGgxLambda = "ggx.Lambda", kGgxG1 = "ggx.G1",
+                           kGgxSample = "ggx.sample_normal", kBeckmannD = "beckmann.D",
+                           kBeckmannLambda = "beckmann.Lambda", kBeckmannG1 = "beckmann.G1",
+                           kBeckmannSample = "beckmann.sample_normal", kPhongG1 = "phong.G1",
+                           kPhongSample = "phong.sample_normal";
+
+struct PhongDCase {
+  static constexpr std::string_view kId = "phong.D";
+  template <Accuracy A, class D>
+  static void Eval(D d, const Options<D>&, const Outputs<D>& out, Vec<D>, Vec<D>, Vec<D> mz,
+                   Vec<D> exponent) {
+    out.v0 = Phong::NormalDensity<A>(d, mz, exponent);
+  }
+};
+template <FresnelPart kPart>
+struct FresnelCase {
+  static constexpr std::string_view kId = kPart == FresnelPart::kUnpolarised ? "fresnel.dielectric"
+                                          : kPart == FresnelPart::kS         ? "fresnel.dielectric_s"
+                                          : kPart == FresnelPart::kP         ? "fresnel.dielectric_p"
+                                                                     : "fresnel.dielectric_transmittance";
+  template <Accuracy A, class D>
+  static void Eval(D d, const Options<D>&, const Outputs<D>& out, Vec<D> cos_i, Vec<D> eta) {
+    out.v0 = FresnelDielectric<kPart, A>(d, cos_i, eta);
+  }
+};
+struct HalfReflectionCase {
+  static constexpr std::string_view kId = "half_vector.reflection";
+  template <Accuracy A, class D, class... V>
+  static void Eval(D d, const Options<D>&, const Outputs<D>& out, V... in) {
+    HalfVectorReflection<A>(d, out.v0, out.v1, out.v2, in...);
+  }
+};
+struct HalfRefractionCase {
+  static constexpr std::string_view kId = "half_vector.refraction";
+  template <Accuracy A, class D, class... V>
+  static void Eval(D d, const Options<D>&, const Outputs<D>& out, V... in) {
+    HalfVectorRefraction<A>(d, out.v0, out.v1, out.v2, in...);
+  }
+};
+struct HalfJacobianCase {
+  static constexpr std::string_view kId = "half_vector.refraction_jacobian";
+  template <Accuracy A, class D, class... V>
+  static void Eval(D d, const Options<D>&, const Outputs<D>& out, V... in) {
+    out.v0 = HalfVectorJacobian<A>(d, in...);
+  }
+};
+struct HalfJacobianCosCase {
+  static constexpr std::string_view kId = "half_vector.refraction_jacobian_cos";
+  template <Accuracy A, class D, class... V>
+  static void Eval(D d, const Options<D>&, const Outputs<D>& out, V... in) {
+    out.v0 = RefractionJacobian<A>(d, in...);
+  }
+};
+struct ReflectCase {
+  static constexpr std::string_view kId = "reflect";
+  template <Accuracy A, class D, class... V>
+  static void Eval(D d, const Options<D>&, const Outputs<D>& out, V... in) {
+    Reflect(d, out.v0, out.v1, out.v2, in...);
+  }
+};
+struct RefractCase {
+  static constexpr std::string_view kId = "refract";
+  template <Accuracy A, class D, class... V>
+  static void Eval(D d, const Options<D>&, const Outputs<D>& out, V... in) {
+    Refract<A>(d, out.v0, out.v1, out.v2, in...);
+  }
+};
+
+constexpr std::size_t Quantity(std::string_view name) {
+  std::size_t i = 0;
+  while (kDielectricQuantities[i].name != name) ++i;
+  return i;
+}
+template <class Dist, Normals kNormals, std::size_t kQuantity>
+using DielectricCase = RoughDielectricKernel<Dist, kNormals, kQuantity>;
+constexpr std::size_t kEval = Quantity("eval"), kEvalReflection = Quantity("eval_reflection"),
+                      kEvalTransmission = Quantity("eval_transmission"),
+                      kEvalSeparable = Quantity("eval_separable"), kPdf = Quantity("pdf"),
+                      kPdfReflection = Quantity("pdf_reflection"),
+                      kPdfTransmission = Quantity("pdf_transmission"), kEvalPdf = Quantity("eval_pdf"),
+                      kSample = Quantity("sample"), kSampleReflection = Quantity("sample_reflection"),
+                      kSampleTransmission = Quantity("sample_transmission");
+
+// K over whole vectors; n is a multiple of every vector's lanes.
+template <class K, size_t... kIn>
+void OverVectors(const float* const* in, float* const* out, size_t n, std::index_sequence<kIn...>) {
+  using D = hn::ScalableTag<float>;
+  const D d;
+  const Options<D> options{RadianceMask(d, Transport::kRadiance)};
   for (size_t i = 0; i < n; i += hn::Lanes(d)) {
-    Vec<decltype(d)> v[kIn], w[kOut];
-    for (int k = 0; k < kIn; ++k) v[k] = hn::LoadU(d, in[k] + i);
-    op(d, v, w);
-    for (int k = 0; k < kOut; ++k) hn::StoreU(w[k], d, out[k] + i);
+    Vec<D> w[6] = {hn::Zero(d), hn::Zero(d), hn::Zero(d), hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+    const Outputs<D> outputs{w[0], w[1], w[2], w[3], w[4], w[5]};
+    K::template Eval<Accuracy::kStandard>(d, options, outputs, hn::LoadU(d, in[kIn] + i)...);
+    for (size_t k = 0; k < Shape<K>::kOut; ++k) hn::StoreU(w[k], d, out[k] + i);
   }
 }
-
-constexpr Accuracy kA = Accuracy::kStandard;
-
-void GgxD(const float* const* in, float* const* out, size_t n) {
-  OverVectors<5, 1>(in, out, n, [](auto d, const auto* v, auto* w) HWY_ATTR {
-    w[0] = NormalDensity<Ggx, kA>(d, v[0], v[1], v[2], v[3], v[4]);
-  });
-}
-void GgxLambda(const float* const* in, float* const* out, size_t n) {
-  OverVectors<5, 1>(in, out, n, [](auto d, const auto* v, auto* w) HWY_ATTR {
-    w[0] = Ggx::Lambda<kA>(d, v[0], v[1], v[2], v[3], v[4]);
-  });
-}
-void BeckmannD(const float* const* in, float* const* out, size_t n) {
-  OverVectors<5, 1>(in, out, n, [](auto d, const auto* v, auto* w) HWY_ATTR {
-    w[0] = NormalDensity<Beckmann, kA>(d, v[0], v[1], v[2], v[3], v[4]);
-  });
-}
-void Fresnel(const float* const* in, float* const* out, size_t n) {
-  OverVectors<2, 1>(in, out, n, [](auto d, const auto* v, auto* w) HWY_ATTR {
-    w[0] = FresnelDielectric<FresnelPart::kUnpolarised, kA>(d, v[0], v[1]);
-  });
-}
-void HalfVector(const float* const* in, float* const* out, size_t n) {
-  OverVectors<6, 3>(in, out, n, [](auto d, const auto* v, auto* w) HWY_ATTR {
-    HalfVectorReflection<kA>(d, w[0], w[1], w[2], v[0], v[1], v[2], v[3], v[4], v[5]);
-  });
-}
-void Eval(const float* const* in, float* const* out, size_t n) {
-  OverVectors<9, 1>(in, out, n, [](auto d, const auto* v, auto* w) HWY_ATTR {
-    const auto radiance = hn::Eq(hn::Zero(d), hn::Zero(d));
-    auto unused = hn::Zero(d);
-    RoughDielectric<Ggx, Lobes::kBoth, JointMasking::kHeightCorrelated, true, false, kA>(
-        d, radiance, w[0], unused, v[0], v[1], v[2], v[3], v[4], v[5], v[8], v[6], v[7]);
-  });
+template <class K>
+void Run(const float* const* in, float* const* out, size_t n) {
+  OverVectors<K>(in, out, n, std::make_index_sequence<Shape<K>::kIn>());
 }
 
-void BeckmannLambda(const float* const* in, float* const* out, size_t n) {
-  OverVectors<5, 1>(in, out, n, [](auto d, const auto* v, auto* w) HWY_ATTR {
-    w[0] = Beckmann::Lambda<kA>(d, v[0], v[1], v[2], v[3], v[4]);
-  });
+template <class... K>
+Cases MakeCases() {
+  static constexpr Case cases[] = {{K::kId, &Run<K>}...};
+  return {cases, cases + sizeof...(K)};
 }
-void Sample(const float* const* in, float* const* out, size_t n) {
-  OverVectors<9, 6>(in, out, n, [](auto d, const auto* v, auto* w) HWY_ATTR {
-    const auto radiance = hn::Eq(hn::Zero(d), hn::Zero(d));
-    SampleRoughDielectric<Ggx, Lobes::kBoth, JointMasking::kHeightCorrelated, kA>(
-        d, radiance, w[0], w[1], w[2], w[3], w[4], w[5], v[0], v[1], v[2], v[3], v[4], v[5], v[8], v[6],
-        v[7]);
-  });
+
+// Every lane function with sums of products of its own.
+Cases CasesOnTarget() {
+  constexpr Normals ggx = Normals::kGgx, beckmann = Normals::kBeckmann, phong = Normals::kPhong;
+  return MakeCases<
+      DKernel<Ggx, kGgxD>, LambdaKernel<Ggx, kGgxLambda>, G1Kernel<Ggx, kGgxG1>,
+      SampleNormalKernel<Ggx, kGgxSample>, DKernel<Beckmann, kBeckmannD>,
+      LambdaKernel<Beckmann, kBeckmannLambda>, G1Kernel<Beckmann, kBeckmannG1>,
+      SampleNormalKernel<Beckmann, kBeckmannSample>, PhongDCase, G1Kernel<Phong, kPhongG1>,
+      SampleNormalKernel<Phong, kPhongSample>, FresnelCase<FresnelPart::kUnpolarised>,
+      FresnelCase<FresnelPart::kS>, FresnelCase<FresnelPart::kP>, FresnelCase<FresnelPart::kTransmittance>,
+      HalfReflectionCase, HalfRefractionCase, HalfJacobianCase, HalfJacobianCosCase, ReflectCase, RefractCase,
+      DielectricCase<Ggx, ggx, kEval>, DielectricCase<Ggx, ggx, kEvalReflection>,
+      DielectricCase<Ggx, ggx, kEvalTransmission>, DielectricCase<Ggx, ggx, kEvalSeparable>,
+      DielectricCase<Ggx, ggx, kPdf>, DielectricCase<Ggx, ggx, kPdfReflection>,
+      DielectricCase<Ggx, ggx, kPdfTransmission>, DielectricCase<Ggx, ggx, kSample>,
+      DielectricCase<Ggx, ggx, kSampleReflection>, DielectricCase<Ggx, ggx, kSampleTransmission>,
+      DielectricCase<Beckmann, beckmann, kEvalPdf>, DielectricCase<Beckmann, beckmann, kEvalReflection>,
+      DielectricCase<Beckmann, beckmann, kSample>, DielectricCase<Phong, phong, kEvalPdf>,
+      DielectricCase<Phong, phong, kEvalReflection>, DielectricCase<Phong, phong, kSample>>();
 }
 
 }  // namespace
@@ -89,7 +177,6 @@ HWY_AFTER_NAMESPACE();
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -99,44 +186,12 @@ HWY_AFTER_NAMESPACE();
 #include "accuracy.h"
 #include "microlane/kernel_list.h"
 #include "microlane/targets.h"
-#include "oracle/oracle.h"
 #include "points.h"
-#include "ulp.h"
 
 namespace microlane {
 namespace {
 
-HWY_EXPORT(GgxD);
-HWY_EXPORT(GgxLambda);
-HWY_EXPORT(BeckmannD);
-HWY_EXPORT(Fresnel);
-HWY_EXPORT(HalfVector);
-HWY_EXPORT(Eval);
-HWY_EXPORT(BeckmannLambda);
-HWY_EXPORT(Sample);
-
-struct Case {
-  std::string_view id;
-  void (*run)(const float* const* in, float* const* out, size_t n);  // on the target that Highway has chosen
-};
-
-const Case kCases[] = {
-    {"ggx.D",
-     [](const float* const* in, float* const* out, size_t n) { HWY_DYNAMIC_DISPATCH(GgxD)(in, out, n); }},
-    {"ggx.Lambda", [](const float* const* in, float* const* out,
-                      size_t n) { HWY_DYNAMIC_DISPATCH(GgxLambda)(in, out, n); }},
-    {"beckmann.D", [](const float* const* in, float* const* out,
-                      size_t n) { HWY_DYNAMIC_DISPATCH(BeckmannD)(in, out, n); }},
-    {"beckmann.Lambda", [](const float* const* in, float* const* out,
-                           size_t n) { HWY_DYNAMIC_DISPATCH(BeckmannLambda)(in, out, n); }},
-    {"fresnel.dielectric",
-     [](const float* const* in, float* const* out, size_t n) { HWY_DYNAMIC_DISPATCH(Fresnel)(in, out, n); }},
-    {"half_vector.reflection", [](const float* const* in, float* const* out,
-                                  size_t n) { HWY_DYNAMIC_DISPATCH(HalfVector)(in, out, n); }},
-    {"rough_dielectric.eval",
-     [](const float* const* in, float* const* out, size_t n) { HWY_DYNAMIC_DISPATCH(Eval)(in, out, n); }},
-    {"rough_dielectric.sample",
-     [](const float* const* in, float* const* out, size_t n) { HWY_DYNAMIC_DISPATCH(Sample)(in, out, n); }}};
+HWY_EXPORT(CasesOnTarget);
 
 std::vector<Point> PointsOf(std::size_t kernel) {
   std::vector<Point> points(20000);
@@ -147,8 +202,7 @@ std::vector<Point> PointsOf(std::size_t kernel) {
   return points;
 }
 
-std::vector<std::vector<float>> RunHere(const Case& one, std::int64_t target,
-                                        const std::vector<Point>& points) {
+std::vector<std::vector<float>> RunHere(const Case& one, const std::vector<Point>& points) {
   const std::size_t kernel = KernelIndex(one.id), n = points.size();
   std::vector<std::vector<float>> in(Split(kKernels[kernel].inputs).count, std::vector<float>(n));
   std::vector<std::vector<float>> out(Split(kKernels[kernel].outputs).count, std::vector<float>(n));
@@ -160,26 +214,24 @@ std::vector<std::vector<float>> RunHere(const Case& one, std::int64_t target,
     in_data.push_back(in[k].data());
   }
   for (std::vector<float>& values : out) out_data.push_back(values.data());
-  hwy::GetChosenTarget().Update(target);  // until Highway is next asked for its targets
   one.run(in_data.data(), out_data.data(), n);
   return out;
 }
 
-// Lane functions built here give the bits of the batch calls, and both stay within the declared bounds. Sums
-// of products are therefore written as MulAdd wherever contraction would reach the result.
+// Lane functions built here give the bits of the batch calls, which other tests hold to the declared bounds.
+// Sums of products are therefore written as MulAdd wherever contraction would reach the result.
 TEST(Reassociated, LaneFunctionsGiveTheBitsOfTheLibrary) {
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
     const std::string name = hwy::TargetName(target);
-    for (const Case& one : kCases) {
+    AccuracyOptions options;
+    options.target = name;
+    hwy::GetChosenTarget().Update(target);
+    for (const Case& one : HWY_DYNAMIC_DISPATCH(CasesOnTarget)()) {
       const std::size_t kernel = KernelIndex(one.id);
-      const bool samples = MetricOf(kKernels[kernel], "pdf") == Metric::kConditioned;
-      AccuracyOptions options;
-      options.target = name;
       const std::vector<Point> points = PointsOf(kernel);
-      const std::vector<std::vector<float>> here = RunHere(one, target, points);
+      const std::vector<std::vector<float>> here = RunHere(one, points);
       const auto library = Compute(kernel, options, points);
       std::size_t different = 0, where = 0;
-      double worst = 0;
       for (std::size_t j = 0; j < points.size(); ++j) {
         for (std::size_t i = 0; i < here.size(); ++i) {
           // To saturate is the batch call's part.
@@ -189,16 +241,10 @@ TEST(Reassociated, LaneFunctionsGiveTheBitsOfTheLibrary) {
               here[i][j] == from_library && std::signbit(here[i][j]) == std::signbit(from_library);
           if (!same && different++ == 0) where = j;
         }
-        if (samples) continue;
-        const oracle::Result truth = oracle::Evaluate(kernel, points[j].data());
-        for (std::size_t i = 0; i < here.size(); ++i) {
-          if (std::isfinite(here[i][j])) worst = std::max(worst, UlpError(here[i][j], truth.exact[i]));
-        }
       }
-      std::printf("[points] reassociated %s %s: %zu points, %zu results with other bits, max %.3g ulp\n",
-                  std::string(one.id).c_str(), name.c_str(), points.size(), different, worst);
+      std::printf("[points] reassociated %s %s: %zu points, %zu results with other bits\n",
+                  std::string(one.id).c_str(), name.c_str(), points.size(), different);
       EXPECT_EQ(different, 0u) << one.id << " " << name << ", first at " << Describe(kernel, points[where]);
-      EXPECT_LE(worst, DeclaredBound(kernel, options)) << one.id << " " << name;
     }
   }
 }
