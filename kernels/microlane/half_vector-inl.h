@@ -147,9 +147,9 @@ HWY_INLINE void Refract(D d, Vec<D>& ox, Vec<D>& oy, Vec<D>& oz, Vec<D> ix, Vec<
   const Vec<D> g = Sqrt<A>(d, hn::IfThenElse(total, zero, g2));
   // sign(0) = 1: -0 counts as 0.
   const Vec<D> cg = hn::IfThenElse(hn::Lt(iz, zero), hn::Add(c, g), hn::Sub(c, g)), r = Reciprocal<A>(d, eta);
-  ox = ZeroIf(total, hn::Mul(hn::MulSub(cg, mx, ix), r));
-  oy = ZeroIf(total, hn::Mul(hn::MulSub(cg, my, iy), r));
-  oz = ZeroIf(total, hn::Mul(hn::MulSub(cg, mz, iz), r));
+  ox = ZeroIf(total, DivByReciprocal<A>(d, hn::MulSub(cg, mx, ix), eta, r));
+  oy = ZeroIf(total, DivByReciprocal<A>(d, hn::MulSub(cg, my, iy), eta, r));
+  oz = ZeroIf(total, DivByReciprocal<A>(d, hn::MulSub(cg, mz, iz), eta, r));
 }
 
 }  // namespace

@@ -52,6 +52,19 @@ HWY_INLINE Vec<D> Reciprocal(D d, Vec<D> x) {
   }
 }
 
+// x/y from r = Reciprocal<A>(y), for several x over one y: rounded as a division but for rare cases.
+template <Accuracy A, class D>
+HWY_INLINE Vec<D> DivByReciprocal(D d, Vec<D> x, Vec<D> y, Vec<D> r) {
+  (void)d;
+  const Vec<D> q = hn::Mul(x, r);
+  if constexpr (A == Accuracy::kFast) return q;
+#if HWY_NATIVE_FMA
+  return hn::MulAdd(hn::NegMulAdd(q, y, x), r, q);
+#else
+  return hn::Div(x, y);
+#endif
+}
+
 template <Accuracy A, class D>
 HWY_INLINE Vec<D> Div(D d, Vec<D> a, Vec<D> b) {
   if constexpr (A == Accuracy::kFast) {
@@ -191,7 +204,7 @@ HWY_INLINE Vec<D> ExpTimes(D d, Vec<D> x, Vec<D> tail, Vec<D> factor) {
                     2.511259157709188156915254867222048185126936914457473903894424e-8,
                     2.08765893735687343299628254602445798226995066215749830007553e-9});
   }
-  const Vec<D> y = hn::Add(Const(d, 1), hn::MulAdd(hn::Mul(r, r), p, r));
+  const Vec<D> y = hn::MulAdd(factor, hn::MulAdd(hn::Mul(r, r), p, r), factor);
   // 2^n in two factors, so that subnormal results are rounded once.
   const auto ni = hn::ConvertTo(di, n);
   const auto n1 = hn::ShiftRight<1>(ni);
@@ -199,7 +212,7 @@ HWY_INLINE Vec<D> ExpTimes(D d, Vec<D> x, Vec<D> tail, Vec<D> factor) {
   const auto bias = hn::Set(di, static_cast<hn::TFromD<decltype(di)>>(kBias));
   const Vec<D> s1 = hn::BitCast(d, hn::ShiftLeft<kBits>(hn::Add(n1, bias)));
   const Vec<D> s2 = hn::BitCast(d, hn::ShiftLeft<kBits>(hn::Add(n2, bias)));
-  return ZeroIf(vanishes, hn::Mul(hn::Mul(hn::Mul(y, factor), s1), s2));
+  return ZeroIf(vanishes, hn::Mul(hn::Mul(y, s1), s2));
 }
 
 // e^(x + tail).
