@@ -13,6 +13,8 @@
 #define MICROLANE_ROUGH_DIELECTRIC_INL_H_
 #endif
 
+#include <limits>
+
 #include "microlane/half_vector-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -497,6 +499,10 @@ HWY_INLINE void SampleRoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& ox,
     pdf = hn::Mul(pdf, share);
   } else {
     weight = hn::Mul(weight, share);
+  }
+  // Without an interface all facets refract straight on; the normal's density may have underflowed.
+  if constexpr (kLobes != Lobes::kReflection) {
+    pdf = hn::IfThenElse(hn::Eq(k, zero), Const(d, std::numeric_limits<double>::infinity()), pdf);
   }
   weight = ZeroIf(invalid, weight);
   pdf = ZeroIf(invalid, pdf);

@@ -15,9 +15,8 @@ struct Result {
   // The value whose ulp is the unit of error: exact for kUlp and kExact, 1 for kDirection,
   // |exact| kappa for kConditioned.
   Real scale[kMaxOutputs];
-  // Sampling: the least change of wi.m, wo.z, u3 or cos^2 of the refracted angle, to first order, that
-  // turns a decision (side of m, choice by Fresnel, total internal reflection, side of wo). Infinite
-  // where nothing was decided by rounding.
+  // Sampling: the least change of wi.m, wo.z or u3, to first order, that turns a decision (side of m, choice
+  // by Fresnel, total internal reflection, side of wo). Infinite where nothing was decided by rounding.
   double margin;
 };
 

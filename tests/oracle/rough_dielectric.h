@@ -109,7 +109,10 @@ struct RoughDielectric {
     Real radicand = RefractionRadicand(c, eta);
 
     sample.margin = ToDouble(abs(c));
-    if ((lobes & kTransmission) != 0) sample.margin = std::min(sample.margin, ToDouble(abs(radicand)));
+    if ((lobes & kTransmission) != 0) {
+      sample.margin =
+          std::min(sample.margin, ToDouble(abs(radicand)) / (1 + 2 * ToDouble(abs(c) / (eta * eta))));
+    }
     const Real g2 = eta * eta * radicand;
     const bool total = radicand <= 0;
     if (total) radicand = 0;

@@ -4,6 +4,7 @@
 #define MICROLANE_SCALAR_ROUGH_DIELECTRIC_H_
 
 #include <cmath>
+#include <limits>
 #include <type_traits>
 
 #include "microlane/scalar/direction.h"
@@ -163,6 +164,7 @@ struct RoughDielectric {
   // Walter 2007 Eq. 38 with the second forms of Eqs. 14 and 17: 1/(4 c), and with o.m = -g/eta
   // eta g/(c - g)^2 = eta g ((c + g)/k)^2, largest finite at eta = 1.
   double SampledPdf(double normal_pdf, Lobes lobe, double c, const FresnelDielectric<Real>& fresnel) const {
+    if (lobe == kTransmission && fresnel.k() == 0) return std::numeric_limits<double>::infinity();
     if (normal_pdf == 0) return 0;
     if (lobe == kReflection) return normal_pdf / (4 * c);
     return normal_pdf * eta * fresnel.g() * Square((c + fresnel.g()) / fresnel.k());
