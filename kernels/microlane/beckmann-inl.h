@@ -7,6 +7,8 @@
 #define MICROLANE_BECKMANN_INL_H_
 #endif
 
+#include <limits>
+
 #include "microlane/distribution-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -94,7 +96,9 @@ struct Beckmann {
       Vec<D> factor, a2, a2_tail;
       const Vec<D> z = hn::Abs(vz);
       LambdaFactors<A>(d, kIsFloat<D> ? 400 : 2000, factor, a2, a2_tail, vx, vy, z, p...);  // exp is 0 beyond
-      const Vec<D> q = ExpTimes<A>(d, hn::Neg(a2), hn::Neg(a2_tail), hn::Div(factor, z));
+      const Vec<D> largest = hn::Set(d, std::numeric_limits<T<D>>::max());
+      const Vec<D> over_z = hn::Min(hn::Div(factor, z), largest);
+      const Vec<D> q = ExpTimes<A>(d, hn::Neg(a2), hn::Neg(a2_tail), over_z);
       lambda = unused = ZeroIf(hn::Eq(hn::Add(hn::Abs(vx), hn::Abs(vy)), hn::Zero(d)), q);
     }
   };

@@ -155,8 +155,8 @@ inline constexpr Kernel kComponentKernels[] = {
     {"ggx.G1_isotropic", "vx vy vz mx my mz | alpha", "G1", "Walter 2007 Eq. 34", kG1Note, false, {1, 4, 2048, 8, 3}},
     {"ggx.sample_normal", "u1 u2 | alpha_x alpha_y", "mx my mz pdf", "Walter 2007 Eqs. 24, 35, 36, stretched", "m = normalize(alpha_x r cos(2 pi u2), alpha_y r sin(2 pi u2), 1), r = sqrt(u1/(1 - u1)); pdf = D cos.", false, {1, 16, 2800, 24, 15}},
 
-    {"beckmann.D", "mx my mz | alpha_x alpha_y", "D", "Heitz 2014 Eq. 82; Walter 2007 Eq. 25", kStretchedExponent, false, {1, 5, 2800, 8, 3000}},
-    {"beckmann.D_isotropic", "mx my mz | alpha", "D", "Walter 2007 Eq. 25", kStretchedExponent, false, {1, 5, 2800, 8, 3000}},
+    {"beckmann.D", "mx my mz | alpha_x alpha_y", "D", "Heitz 2014 Eq. 82; Walter 2007 Eq. 25", kStretchedExponent, false, {1, 4, 2800, 8, 3000}},
+    {"beckmann.D_isotropic", "mx my mz | alpha", "D", "Walter 2007 Eq. 25", kStretchedExponent, false, {1, 4, 2800, 8, 3000}},
     {"beckmann.Lambda", "vx vy vz | alpha_x alpha_y", "Lambda", "Heitz 2014 Eq. 83", kLambdaExponentNote, false, {1, 4, 1700, 8, 2200}},
     {"beckmann.Lambda_isotropic", "vx vy vz | alpha", "Lambda", "Heitz 2014 Eq. 69", kLambdaExponentNote, false, {1, 4, 1700, 8, 2200}},
     {"beckmann.G1", "vx vy vz mx my mz | alpha_x alpha_y", "G1", "Walter 2007 Eq. 26, stretched", kG1Note, false, {1, 4, 2500, 8, 14}},
@@ -166,7 +166,7 @@ inline constexpr Kernel kComponentKernels[] = {
     {"beckmann.sample_normal_widened", "u1 u2 cos_i | alpha_x alpha_y", "mx my mz pdf", "Walter 2007 section 5.3", "beckmann.sample_normal with both alphas times 1.2 - 0.2 sqrt(|cos_i|).", false, {1, 16, 2800, 24, 17}},
 
     {"phong.exponent", "alpha", "exponent", "Walter 2007, after Eq. 30: 2/alpha^2 - 2", "0 for alpha >= 1.", false, {1, 4, 1200, 8, 1.5}},
-    {"phong.D", "mx my mz | exponent", "D", "Walter 2007 Eq. 30", "(exponent + 2)/(2 pi) mz^exponent of mz as given; 0 where mz <= 0. Double lanes round an exponent of up to 745 once.", false, {1, 5, 128, 8, 2000}},
+    {"phong.D", "mx my mz | exponent", "D", "Walter 2007 Eq. 30", "(exponent + 2)/(2 pi) mz^exponent of mz as given; 0 where mz <= 0. Double lanes round an exponent of up to 745 once.", false, {1, 4, 128, 8, 2000}},
     {"phong.G1", "vx vy vz mx my mz | exponent", "G1", "Walter 2007 Eq. 27 with a = sqrt(0.5 exponent + 1)/tan(theta_v), clamped at 1", kG1Note, false, {1, 4, 2900, 8, 6}},
     {"phong.sample_normal", "u1 u2 | exponent", "mx my mz pdf", "Walter 2007 Eqs. 24, 31, 32", "cos(theta_m) = u1^(1/(exponent + 2)); pdf = D cos. Double lanes round the logarithm of the density once.", false, {1, 16, 1200, 24, 128}},
 
@@ -175,15 +175,15 @@ inline constexpr Kernel kComponentKernels[] = {
     {"fresnel.dielectric_s", "cos_i | eta", "F", "Walter 2007 Eq. 22, first factor: ((g - c)/(g + c))^2", kFresnelNote, false, {1, 4, 3000, 8, 10}},
     {"fresnel.dielectric_p", "cos_i | eta", "F", "Walter 2007 Eq. 22, the part polarised in the plane of incidence: ((eta^2 c - g)/(eta^2 c + g))^2", kFresnelNote, false, {1, 4, 1, 8, 18}},
 
-    {"half_vector.reflection", "wix wiy wiz wox woy woz", "hx hy hz", "Walter 2007 Eq. 13", "0 where wi = -wo; sign(0) = 1.", false, {1, 5, 1800, 8, 4}},
-    {"half_vector.reflection_jacobian", "wix wiy wiz wox woy woz", "jacobian", "Walter 2007 Eq. 14, first form |o.h|/|h_r|^2", "0 where wi = -wo. Double lanes do not make up for what wo.h_r loses to cancellation near there.", false, {1, 5, 1, 8, 0x1p22}},
-    {"half_vector.reflection_jacobian_cos", "cos_o", "jacobian", "Walter 2007 Eq. 14, second form 1/(4 |o.h|)", "The largest finite number at 0.", false, {1, 5, 1, 8, 1}},
-    {"half_vector.refraction", "wix wiy wiz wox woy woz | eta", "hx hy hz", "Walter 2007 Eq. 16; Marschner 2012: -normalize(i + n o)", "Points into the side of lower index; 0 where i + eta o = 0.", false, {1, 5, 1800, 8, 4}},
-    {"half_vector.refraction_jacobian", "wix wiy wiz wox woy woz | eta", "jacobian", "Walter 2007 Eq. 17, first form; Marschner 2012: n^2 |o.h|/|i + n o|^2", "0 where i + eta o = 0. Double lanes do not make up for what o.(i + eta o) loses to cancellation near there and edge-on.", false, {1, 5, 1, 8, 0x1p32}},
-    {"half_vector.refraction_jacobian_cos", "cos_i cos_o | eta", "jacobian", "Walter 2007 Eq. 17, second form eta^2 |o.h|/(i.h + eta o.h)^2", "cos_i = i.h, cos_o = o.h; the largest finite number where the denominator is 0, and 0 where cos_o is 0.", false, {1, 5, 6, 8, 6}},
+    {"half_vector.reflection", "wix wiy wiz wox woy woz", "hx hy hz", "Walter 2007 Eq. 13", "0 where wi = -wo; sign(0) = 1.", false, {1, 4, 1800, 8, 4}},
+    {"half_vector.reflection_jacobian", "wix wiy wiz wox woy woz", "jacobian", "Walter 2007 Eq. 14, first form |o.h|/|h_r|^2", "0 where wi = -wo. Double lanes do not make up for what wo.h_r loses to cancellation near there.", false, {1, 4, 1, 8, 0x1p22}},
+    {"half_vector.reflection_jacobian_cos", "cos_o", "jacobian", "Walter 2007 Eq. 14, second form 1/(4 |o.h|)", "The largest finite number at 0.", false, {1, 4, 1, 8, 1}},
+    {"half_vector.refraction", "wix wiy wiz wox woy woz | eta", "hx hy hz", "Walter 2007 Eq. 16; Marschner 2012: -normalize(i + n o)", "Points into the side of lower index; 0 where i + eta o = 0.", false, {1, 4, 1800, 8, 4}},
+    {"half_vector.refraction_jacobian", "wix wiy wiz wox woy woz | eta", "jacobian", "Walter 2007 Eq. 17, first form; Marschner 2012: n^2 |o.h|/|i + n o|^2", "0 where i + eta o = 0. Double lanes do not make up for what o.(i + eta o) loses to cancellation near there and edge-on.", false, {1, 4, 1, 8, 0x1p32}},
+    {"half_vector.refraction_jacobian_cos", "cos_i cos_o | eta", "jacobian", "Walter 2007 Eq. 17, second form eta^2 |o.h|/(i.h + eta o.h)^2", "cos_i = i.h, cos_o = o.h; the largest finite number where the denominator is 0, and 0 where cos_o is 0.", false, {1, 4, 6, 8, 6}},
 
-    {"reflect", "wix wiy wiz mx my mz", "wox woy woz", "Walter 2007 Eq. 39, as 2 (i.m) m - i", "", false, {1, 5, 3, 8, 2.5}},
-    {"refract", "wix wiy wiz mx my mz | eta", "wox woy woz", "Walter 2007 Eq. 40", "sign(i.n) is sign(wiz), sign(0) = 1; 0 under total internal reflection. Double lanes do not make up for the cancellation of g^2 at the critical angle.", false, {1, 5, 1100, 8, 0x1p17}},
+    {"reflect", "wix wiy wiz mx my mz", "wox woy woz", "Walter 2007 Eq. 39, as 2 (i.m) m - i", "", false, {1, 4, 3, 8, 2.5}},
+    {"refract", "wix wiy wiz mx my mz | eta", "wox woy woz", "Walter 2007 Eq. 40", "sign(i.n) is sign(wiz), sign(0) = 1; 0 under total internal reflection. Double lanes do not make up for the cancellation of g^2 at the critical angle.", false, {1, 4, 1100, 8, 0x1p17}},
 };
 
 // What the rough dielectric gives over each distribution of normals.
@@ -238,15 +238,14 @@ struct DielectricFamily {
 };
 
 // Values in double lanes: cosines and g^2 are left with a relative error of 2^-33 where they cancel, next to the critical
-// angle and where a facet is seen edge-on. Samples, fast: the normal is within 2^-13, which refraction magnifies. Phong's
-// samples: 69 at u1 = 2^-149, where the density is subnormal.
+// angle and where a facet is seen edge-on. Phong's samples: 69 at u1 = 2^-149, where the density is subnormal.
 inline constexpr DielectricFamily kDielectricFamilies[] = {
     {"rough_dielectric", "alpha_x alpha_y", "GGX: Walter 2007 Eqs. 33-36, stretched",
-     {1, 40, 4096, 64, 0x1p20}, {1, 40, 4096, 64, 0x1p14}, {1, 40, 4096, 64, 14}, {1, 40, 8192, 64, 17}},
+     {1, 28, 4096, 32, 0x1p20}, {1, 28, 4096, 32, 0x1p14}, {1, 20, 2400, 24, 14}, {1, 16, 4096, 24, 17}},
     {"rough_dielectric_beckmann", "alpha_x alpha_y", "Beckmann: Walter 2007 Eqs. 25, 26, 28, 29, stretched",
-     {1, 40, 4096, 64, 0x1p20}, {1, 40, 4096, 64, 0x1p14}, {1, 40, 4096, 64, 3500}, {1, 40, 8192, 64, 17}},
+     {1, 40, 4096, 48, 0x1p20}, {1, 40, 4096, 48, 0x1p14}, {1, 20, 2400, 24, 3500}, {1, 16, 4096, 24, 17}},
     {"rough_dielectric_phong", "exponent", "Phong: Walter 2007 Eqs. 27, 30-32",
-     {1, 40, 4096, 64, 0x1p20}, {1, 40, 4096, 64, 0x1p14}, {1, 40, 4096, 64, 4000}, {1, 128, 8192, 128, 17}},
+     {1, 28, 4096, 32, 0x1p20}, {1, 28, 4096, 32, 0x1p14}, {1, 20, 2400, 24, 4000}, {1, 90, 4096, 90, 17}},
 };
 // clang-format on
 

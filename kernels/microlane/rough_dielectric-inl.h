@@ -491,7 +491,8 @@ HWY_INLINE void SampleRoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& ox,
   } else {
     const Vec<D> product = hn::Mul(denominator, jacobian_under);
     hard = hn::Or(hard, OutOfRange(d, hn::Abs(product), 0x1p-90f, 0x1p90f));
-    const Vec<D> both = Reciprocal<A>(d, product);
+    Vec<D> both = Reciprocal<A>(d, product);
+    if constexpr (A == Accuracy::kFast) both = hn::Mul(both, hn::NegMulAdd(product, both, Const(d, 2)));
     weight = hn::Mul(numerator, hn::Mul(both, jacobian_under));
     pdf = hn::Mul(hn::Mul(pdf_m, jacobian_over), hn::Mul(both, denominator));
   }
