@@ -129,7 +129,9 @@ struct Beckmann {
     const Vec<D> zero = hn::Zero(d);
     const auto one = hn::Or(hn::Ge(f, hn::Mul(Const(d, 1.6), s)), hn::Le(numerator, zero));
     const Vec<D> twice = hn::Add(numerator, numerator);
-    return hn::Add(z, ZeroIf(one, Div<A>(d, twice, denominator)));
+    const Vec<D> quotient = A == Accuracy::kFast ? hn::Mul(twice, RefinedReciprocal<A>(d, denominator))
+                                                 : hn::Div(twice, denominator);
+    return hn::Add(z, ZeroIf(one, quotient));
   }
 
   // Walter 2007 Eqs. 28, 29; pdf = D cos = (1 - u1) |.|^3 / (pi ax ay).

@@ -52,6 +52,13 @@ HWY_INLINE Vec<D> Reciprocal(D d, Vec<D> x) {
   }
 }
 
+// Reciprocal with kFast's error taken to a rounding or two by a Newton step.
+template <Accuracy A, class D>
+HWY_INLINE Vec<D> RefinedReciprocal(D d, Vec<D> x) {
+  const Vec<D> r = Reciprocal<A>(d, x);
+  return A == Accuracy::kFast ? hn::Mul(r, hn::NegMulAdd(x, r, Const(d, 2))) : r;
+}
+
 // x/y from r = Reciprocal<A>(y), for several x over one y: rounded as a division but for rare cases.
 template <Accuracy A, class D>
 HWY_INLINE Vec<D> DivByReciprocal(D d, Vec<D> x, Vec<D> y, Vec<D> r) {

@@ -328,7 +328,7 @@ HWY_INLINE void RoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& value, Ve
 
   // Everything is over (scaled q density)^2 masking, with k^2 (p^2 + s^4) H.H^2 <= q^2 (reached under total
   // internal reflection) and 2 p A (M^2 + eta^2 H.H^2) as the Fresnel factors F and T times q^2.
-  constexpr double kScale = kWide ? 1 : 0x1p15;
+  constexpr double kScale = kWide ? 1 : 0x1p21;
   const Vec<D> dq = hn::Mul(hn::Mul(density, Const(d, kScale)), q);
   const Vec<D> denominator = hn::Mul(hn::Mul(dq, dq), masking);
   Vec<D> fresnel = one;  // F or T (both lobes: that of the lane), times q^2
@@ -491,8 +491,7 @@ HWY_INLINE void SampleRoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& ox,
   } else {
     const Vec<D> product = hn::Mul(denominator, jacobian_under);
     hard = hn::Or(hard, OutOfRange(d, hn::Abs(product), 0x1p-90f, 0x1p90f));
-    Vec<D> both = Reciprocal<A>(d, product);
-    if constexpr (A == Accuracy::kFast) both = hn::Mul(both, hn::NegMulAdd(product, both, Const(d, 2)));
+    const Vec<D> both = RefinedReciprocal<A>(d, product);
     weight = hn::Mul(numerator, hn::Mul(both, jacobian_under));
     pdf = hn::Mul(hn::Mul(pdf_m, jacobian_over), hn::Mul(both, denominator));
   }
