@@ -32,6 +32,9 @@ inline Vec3 operator/(const Vec3& a, float s) {
 }
 inline float Dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 inline float AbsDot(const Vec3& a, const Vec3& b) { return std::abs(Dot(a, b)); }
+inline Vec3 Cross(const Vec3& a, const Vec3& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
 inline float LengthSquared(const Vec3& a) { return Dot(a, a); }
 inline Vec3 Normalize(const Vec3& a) { return a / std::sqrt(LengthSquared(a)); }
 inline float Sqr(float x) { return x * x; }
@@ -105,6 +108,33 @@ struct Ggx {
     const float tan2_theta = alpha2 * u1 / (1 - u1);
     const float cos_theta = 1 / std::sqrt(1 + tan2_theta);
     return SphericalDirection(std::sqrt(std::max(0.f, 1 - Sqr(cos_theta))), cos_theta, phi);
+  }
+
+  // As Eto and Tokuyoshi 2023 print it.
+  float CapBound(const Vec3& w) const {
+    const float a2 = Sqr(std::clamp(std::min(alpha_x, alpha_y), 0.f, 1.f));
+    const float s2 = Sqr(1 + std::sqrt(Sqr(w.x) + Sqr(w.y)));
+    return (1 - a2) * s2 / (s2 + a2 * Sqr(w.z));
+  }
+  Vec3 SampleVisibleNormalBounded(const Vec3& w, float u1, float u2) const {
+    const Vec3 wh = Normalize({alpha_x * w.x, alpha_y * w.y, w.z});
+    const float phi = 2 * kPi * u2, b = CapBound(w) * wh.z;
+    const float z = (1 - u1) * (1 + b) - b, sin_theta = std::sqrt(std::clamp(1 - Sqr(z), 0.f, 1.f));
+    const Vec3 nh = Vec3{sin_theta * std::cos(phi), sin_theta * std::sin(phi), z} + wh;
+    return Normalize({alpha_x * nh.x, alpha_y * nh.y, nh.z});
+  }
+
+  // Heitz 2018, "Sampling the GGX Distribution of Visible Normals".
+  Vec3 SampleVisibleNormal(const Vec3& w, float u1, float u2) const {
+    const Vec3 wh = Normalize({alpha_x * w.x, alpha_y * w.y, w.z});
+    const float sin2_theta = Sqr(wh.x) + Sqr(wh.y);
+    const Vec3 t1 = sin2_theta > 0 ? Vec3{-wh.y, wh.x, 0} / std::sqrt(sin2_theta) : Vec3{1, 0, 0};
+    const Vec3 t2 = Cross(wh, t1);
+    const float r = std::sqrt(u1), phi = 2 * kPi * u2;
+    const float p1 = r * std::cos(phi), s = 0.5f * (1 + wh.z);
+    const float p2 = (1 - s) * std::sqrt(1 - Sqr(p1)) + s * r * std::sin(phi);
+    const Vec3 nh = p1 * t1 + p2 * t2 + std::sqrt(std::max(0.f, 1 - Sqr(p1) - Sqr(p2))) * wh;
+    return Normalize({alpha_x * nh.x, alpha_y * nh.y, std::max(0.f, nh.z)});
   }
 };
 
@@ -354,6 +384,34 @@ void SampleNormal(const float* in, float* out, Transport) {
   Store(wm, out);
   out[3] = distribution.D(wm) * AbsCosTheta(wm);
 }
+// pbrt-v4: of a view above the surface; the sampler turns it there.
+template <class Distribution>
+float VisibleDensity(const Distribution& distribution, const Vec3& w, const Vec3& wm) {
+  return 1 / (1 + distribution.Lambda(w)) / AbsCosTheta(w) * distribution.D(wm) * AbsDot(w, wm);
+}
+template <class Distribution>
+void DVisible(const float* in, float* out, Transport) {
+  const Vec3 w = Load(in), wm = Load(in + 3);
+  out[0] = Dot(w, wm) * CosTheta(w) <= 0 ? 0 : VisibleDensity(Distribution::Make(in + 6), w, wm);
+}
+template <class Distribution>
+void SampleVisibleNormal(const float* in, float* out, Transport) {
+  const Distribution distribution = Distribution::Make(in + 5);
+  const Vec3 w = in[2] < 0 ? -Load(in) : Load(in);
+  const Vec3 wm = distribution.SampleVisibleNormal(w, in[3], in[4]);
+  Store(wm, out);
+  out[3] = VisibleDensity(distribution, w, wm);
+}
+template <class Distribution>
+void SampleVisibleNormalBounded(const float* in, float* out, Transport) {
+  const Distribution distribution = Distribution::Make(in + 5);
+  const Vec3 w = in[2] < 0 ? -Load(in) : Load(in);
+  const Vec3 wm = distribution.SampleVisibleNormalBounded(w, in[3], in[4]);
+  Store(wm, out);
+  const float length =
+      std::sqrt(Sqr(distribution.alpha_x * w.x) + Sqr(distribution.alpha_y * w.y) + Sqr(w.z));
+  out[3] = 2 * AbsDot(w, wm) * distribution.D(wm) / (distribution.CapBound(w) * w.z + length);
+}
 void SampleNormalWidened(const float* in, float* out, Transport) {
   const float scale = 1.2f - 0.2f * std::sqrt(std::abs(in[2]));
   const Beckmann distribution{scale * in[3], scale * in[4]};
@@ -488,6 +546,9 @@ constexpr std::array kEntries = {
     Make<KernelIndex("ggx.G1"), MaskingG1<Ggx>>(),
     Make<KernelIndex("ggx.G1_isotropic"), MaskingG1<GgxIsotropic>>(),
     Make<KernelIndex("ggx.sample_normal"), SampleNormal<Ggx>>(),
+    Make<KernelIndex("ggx.D_visible"), DVisible<Ggx>>(),
+    Make<KernelIndex("ggx.sample_visible_normal"), SampleVisibleNormal<Ggx>>(),
+    Make<KernelIndex("ggx.sample_visible_normal_bounded"), SampleVisibleNormalBounded<Ggx>>(),
 
     Make<KernelIndex("beckmann.D"), D<Beckmann>>(),
     Make<KernelIndex("beckmann.D_isotropic"), D<BeckmannIsotropic>>(),

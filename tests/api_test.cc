@@ -111,6 +111,9 @@ const std::vector<Row<T>>& Rows() {
       {"ggx.G1", [](A& a) { ggx::G1(a.n, a.Direction(0), a.Direction(3), a.Value(6), a.Value(7), a.Out(0), a.accuracy); }},
       {"ggx.G1_isotropic", [](A& a) { ggx::G1(a.n, a.Direction(0), a.Direction(3), a.Value(6), a.Out(0), a.accuracy); }},
       {"ggx.sample_normal", [](A& a) { ggx::SampleNormal(a.n, a.Lanes(0), a.Lanes(1), a.Value(2), a.Value(3), a.OutDirection(0), a.Out(3), a.accuracy); }},
+      {"ggx.D_visible", [](A& a) { ggx::DVisible(a.n, a.Direction(0), a.Direction(3), a.Value(6), a.Value(7), a.Out(0), a.accuracy); }},
+      {"ggx.sample_visible_normal", [](A& a) { ggx::SampleVisibleNormal(a.n, a.Direction(0), a.Lanes(3), a.Lanes(4), a.Value(5), a.Value(6), a.OutDirection(0), a.Out(3), a.accuracy); }},
+      {"ggx.sample_visible_normal_bounded", [](A& a) { ggx::SampleVisibleNormalBounded(a.n, a.Direction(0), a.Lanes(3), a.Lanes(4), a.Value(5), a.Value(6), a.OutDirection(0), a.Out(3), a.accuracy); }},
 
       {"beckmann.D", [](A& a) { beckmann::D(a.n, a.Direction(0), a.Value(3), a.Value(4), a.Out(0), a.accuracy); }},
       {"beckmann.D_isotropic", [](A& a) { beckmann::D(a.n, a.Direction(0), a.Value(3), a.Out(0), a.accuracy); }},

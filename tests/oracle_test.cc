@@ -214,6 +214,38 @@ TEST(OracleSampling, NormalsHaveTheDensityDCos) {
   ExpectSamplesItsDensity(Phong{37.5}, "Phong");
 }
 
+TEST(OracleSampling, VisibleNormalsHaveTheirDensity) {
+  const Ggx ggx{{0.2, 0.7}};
+  for (const Vec& v : kUnits) {
+    for (const double u1 : {1e-6, 0.2, 0.7, 0.999}) {
+      for (const double u2 : {0.03, 0.3, 0.55, 0.9}) {
+        const auto map = [&](const Real& a, const Real& b) { return VisibleNormal(v, a, b, ggx.alpha).m; };
+        const Vec m = map(u1, u2);
+        ExpectRelative(Dot(m, m), 1, 1e-120, "|m|");
+        EXPECT_GT(m.z, 0);
+        EXPECT_GT(Dot(v, m) * v.z, 0);
+        ExpectRelative(ggx.DVisible(v, m) * SphereJacobian(map, u1, u2), 1, 1e-25, "D_visible");
+        EXPECT_EQ(ggx.DVisible(-v, m), ggx.DVisible(v, m)) << "same on both sides";
+        const Result bounded =
+            EvaluateId("ggx.sample_visible_normal_bounded", {v.x, v.y, v.z, u1, u2, 0.2, 0.7});
+        const Real k = CapBound(v, ggx.alpha);
+        const auto in_cap = [&](const Real& a, const Real& b) {
+          return VisibleNormal(v, a, b, ggx.alpha, k).m;
+        };
+        ExpectRelative(bounded.exact[3] * SphereJacobian(in_cap, u1, u2), 1, 1e-25, "bounded");
+      }
+    }
+  }
+}
+
+TEST(OracleSampling, VisibleDensityAtGrazingIsItsLimit) {
+  const Ggx ggx{{0.2, 0.7}};
+  const Vec m = Normalized({Real(1) / 10, Real(-1) / 5, 1});
+  const Real tiny("1e-60");
+  ExpectRelative(ggx.DVisible({1, 0, 0}, m), ggx.DVisible({1, 0, tiny}, m), 1e-50);
+  EXPECT_EQ(ggx.DVisible({-1, 0, 0}, m), 0);
+}
+
 TEST(OracleSampling, FirstRandomNumberOfZeroIsTheNormalOrPhongsHorizon) {
   for (const char* id : {"ggx.sample_normal", "beckmann.sample_normal"}) {
     const Result r = EvaluateId(id, {0, 0.3, 0.5, 0.25});

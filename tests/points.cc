@@ -70,6 +70,7 @@ struct Shape {
   bool reflects = true, transmits = true;  // lobes that are not 0 by definition
   bool samples = false;                    // a normal from u1, u2
   bool pairs = false;                      // wi and wo
+  bool visible = false;                    // normals as seen from v
   std::array<bool, kNumFields> has{};
 };
 
@@ -94,6 +95,7 @@ Shape MakeShape(std::size_t kernel) {
   shape.isotropic = shape.has[kAlpha] || shape.has[kExponent];
   shape.pairs = shape.has[kWox];
   shape.samples = shape.has[kWix] && shape.has[kU1];
+  shape.visible = Contains(id, "visible");
   shape.reflects = !Contains(id, "transmission") && !Contains(id, "half_vector.refraction");
   shape.transmits = !Contains(id, "reflection") && shape.has[kEta];
   return shape;
@@ -408,6 +410,7 @@ class SceneMaker {
     if (shape_.samples && random_.Chance(0.05)) wi = AtCosine(facing, random_.LogUniform(1e-8, 1e-2), wi);
     if (random_.Chance(0.7) && Dot(wi, facing) < 0 && upright) wi = wi - 2 * Dot(wi, facing) * facing;
     if (random_.Chance(0.03)) wi.z = std::copysign(random_.LogUniform(kSmallestCosine, 1e-2), wi.z);
+    if (shape_.visible) SeeNormal(wi, m);
     wi = Rounded(kWix, Normalized(wi));
     if (shape_.has[kMx]) facing = Rounded(kMx, facing);
     if (shape_.pairs) Put(scene_, kWox, Rounded(kWox, Outgoing(wi, facing, eta)));
@@ -417,6 +420,20 @@ class SceneMaker {
     Put(scene_, kMx, facing);
     Put(scene_, kVx, wi);
     Put(scene_, kWix, wi);
+  }
+
+  // Turns v so that it sees m most of the time, sometimes just so; draws a point of the cap opposite to v now
+  // and then, where their sum cancels.
+  void SeeNormal(Vector& v, const Vector& m) {
+    const double u = random_.Uniform();
+    if (u < 0.15) v = AtCosine(m, random_.LogUniform(1e-8, 1e-2), v);
+    if (u < 0.8 && Dot(v, m) * v.z < 0) v = v - 2 * Dot(v, m) * m;
+    if (!shape_.has[kU1] || u >= 0.2) return;
+    const double phi = std::atan2(RoughnessY(shape_, scene_) * v.y, RoughnessX(shape_, scene_) * v.x);
+    const double opposite =
+        phi / kTwoPi + (v.z < 0 ? 0 : 0.5) + random_.Sign() * random_.LogUniform(1e-9, 0.1);
+    scene_[kU1] = Fit(kU1, 1 - random_.LogUniform(0x1p-24, 1), values_);
+    scene_[kU2] = Fit(kU2, opposite - std::floor(opposite), values_);
   }
 
   Vector Outgoing(const Vector& wi, const Vector& facing, double eta) {
@@ -914,10 +931,13 @@ class ExtremeMaker {
     if (!shape_.has[kU1]) return;
     Scene scene = Base();
     const List edges = {0, 0x1p-149, 0x1p-32, 0x1p-24, 0.25, 0.5, 1 - 0x1p-23, kLargestU};
+    std::vector<double> heights = {1, 0.3, 1e-4, -0.7};
+    if (shape_.visible) heights.insert(heights.end(), {-1, -1e-4, 1e-42, 0});
     for (const double alpha : {1e-5, 0.1, 1.0, 1e2}) {
       SetAlpha(scene, alpha, alpha);
-      for (const double wi_z : {1.0, 0.3, 1e-4, -0.7}) {
+      for (const double wi_z : heights) {
         const Vector wi = AtHeight(wi_z, 1);
+        Put(scene, kVx, wi);
         Put(scene, kWix, wi);
         scene[kCosI] = wi_z;
         for (const double u1 : edges) {

@@ -41,7 +41,9 @@ namespace HWY_NAMESPACE {
 namespace {
 
 constexpr std::string_view kGgxD = "ggx.D", kGgxLambda = "ggx.Lambda", kGgxG1 = "ggx.G1",
-                           kGgxSample = "ggx.sample_normal", kBeckmannD = "beckmann.D",
+                           kGgxSample = "ggx.sample_normal", kGgxDVisible = "ggx.D_visible",
+                           kGgxSampleVisible = "ggx.sample_visible_normal",
+                           kGgxSampleBounded = "ggx.sample_visible_normal_bounded", kBeckmannD = "beckmann.D",
                            kBeckmannLambda = "beckmann.Lambda", kBeckmannG1 = "beckmann.G1",
                            kBeckmannSample = "beckmann.sample_normal", kPhongG1 = "phong.G1",
                            kPhongSample = "phong.sample_normal";
@@ -152,7 +154,9 @@ Cases CasesOnTarget() {
   constexpr Normals ggx = Normals::kGgx, beckmann = Normals::kBeckmann, phong = Normals::kPhong;
   return MakeCases<
       DKernel<Ggx, kGgxD>, LambdaKernel<Ggx, kGgxLambda>, G1Kernel<Ggx, kGgxG1>,
-      SampleNormalKernel<Ggx, kGgxSample>, DKernel<Beckmann, kBeckmannD>,
+      SampleNormalKernel<Ggx, kGgxSample>, DVisibleKernel<Ggx, kGgxDVisible>,
+      SampleVisibleNormalKernel<Ggx, kGgxSampleVisible>,
+      SampleVisibleNormalKernel<Ggx, kGgxSampleBounded, true>, DKernel<Beckmann, kBeckmannD>,
       LambdaKernel<Beckmann, kBeckmannLambda>, G1Kernel<Beckmann, kBeckmannG1>,
       SampleNormalKernel<Beckmann, kBeckmannSample>, PhongDCase, G1Kernel<Phong, kPhongG1>,
       SampleNormalKernel<Phong, kPhongSample>, FresnelCase<FresnelPart::kUnpolarised>,

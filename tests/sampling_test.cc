@@ -51,6 +51,47 @@ std::vector<NormalCase> NormalCases() {
   return cases;
 }
 
+// A sampler of visible normals: a distribution and the view.
+struct VisibleCase {
+  Distribution distribution;
+  double theta, side;
+  Accuracy accuracy;
+  bool bounded;
+
+  Direction v() const { return side * Spherical(Radians(theta), 0.7); }
+  std::string Text() const {
+    return distribution.Text() + microlane::Text(", %g degrees from %s%s", theta,
+                                                 side > 0 ? "above" : "below", bounded ? ", bounded" : "");
+  }
+};
+
+// From the normal to grazing, and from below.
+std::vector<VisibleCase> VisibleCases() {
+  constexpr float kAlphas[][2] = {{0.01f, 0.01f}, {0.05f, 0.05f}, {0.3f, 0.3f}, {1, 1},
+                                  {2, 2},         {0.01f, 1},     {2, 0.1f}};
+  constexpr double kViews[][2] = {{0, 1}, {30, 1}, {60, 1}, {85, 1}, {89.9, 1}, {0, -1}, {70, -1}};
+  std::vector<VisibleCase> cases;
+  for (const auto& alpha : kAlphas) {
+    for (const auto& view : kViews) {
+      const Accuracy accuracy = cases.size() % 4 == 3 ? Accuracy::kFast : Accuracy::kStandard;
+      cases.push_back({Ggx(alpha[0], alpha[1]), view[0], view[1], accuracy, false});
+      if (view[0] == 60 || view[1] < 0)
+        cases.push_back({Ggx(alpha[0], alpha[1]), view[0], view[1], accuracy, true});
+    }
+  }
+  return cases;
+}
+
+// Eto and Tokuyoshi 2023: the cap that bounded sampling leaves, over the whole one.
+double CapShare(const VisibleCase& c) {
+  const Direction v = c.side * c.v();
+  const double ax = c.distribution.scale_x, ay = c.distribution.scale_y;
+  const double s_z = v.z / Length({ax * v.x, ay * v.y, v.z});
+  const double a2 = std::pow(std::min({ax, ay, 1.0}), 2), t2 = std::pow(1 + std::hypot(v.x, v.y), 2);
+  const double k = (1 - a2) * t2 / (t2 + a2 * v.z * v.z);
+  return (1 + k * s_z) / (1 + s_z);
+}
+
 // A sampler of directions: a surface and a direction of incidence.
 struct DielectricCase {
   Distribution distribution;
@@ -101,7 +142,7 @@ constexpr DielectricSampler kDielectricSamplers[] = {
 
 // Sidak's correction over all chi-square tests of this file.
 double ChiSquareSignificance() {
-  std::size_t count = NormalCases().size();
+  std::size_t count = NormalCases().size() + VisibleCases().size();
   const std::size_t cases = DielectricCases().size();
   for (const DielectricSampler& sampler : kDielectricSamplers) {
     count += (cases + sampler.every - 1) / sampler.every;
@@ -354,6 +395,80 @@ TEST(NormalSampler, DensityIsDTimesTheCosine) {
       return density;
     });
     tally.Add(test, kSamples, c.distribution.Text() + Text(", widening %g", widening));
+  }
+}
+
+// Outputs of a sampler of visible normals at random numbers.
+std::vector<Column<float>> SampleVisible(const VisibleCase& c, std::size_t n, std::mt19937_64& random) {
+  const Column<float> u1 = UniformNumbers<float>(n, random), u2 = UniformNumbers<float>(n, random);
+  const std::string id =
+      c.distribution.Id(c.bounded ? "sample_visible_normal_bounded" : "sample_visible_normal");
+  return RunAll<float>(id, n, {c.accuracy}, c.v(), u1, u2, c.distribution);
+}
+
+// Heitz 2014, Eq. 16, from views on either side. Bounded caps are tested by the directions they reflect v
+// into, since they leave out normals that reflect it below the surface: above, their density is that of whole
+// caps over the share of the cap that is left.
+TEST(VisibleNormalSampler, DensityIsThatOfVisibleNormals) {
+  constexpr std::size_t kSamples = 100000;
+  ChiSquareTally tally("visible normals against D_visible");
+  std::uint64_t seed = 1;
+  for (const VisibleCase& c : VisibleCases()) {
+    std::mt19937_64 random(seed++);
+    const Direction v = c.v();
+    const auto sample = [&](std::size_t n) {
+      const std::vector<Column<float>> out = SampleVisible(c, n, random);
+      DirectionColumns<float> sampled{out[0], out[1], out[2]};
+      if (!c.bounded) return sampled;
+      DirectionColumns<float> wo;
+      for (std::size_t i = 0; i < n; ++i) {
+        const Direction mirrored = 2 * Dot(v, sampled[i]) * sampled[i] - v;
+        wo.PushBack(mirrored.z * v.z > 0 ? mirrored : Direction{0, 0, 0});
+      }
+      return wo;
+    };
+    const DirectionColumns<float> pilot = sample(20000), samples = sample(kSamples);
+    const DensityTest test = TestDensity(pilot, samples, [&](const DirectionColumns<double>& nodes) {
+      const std::string id = c.distribution.Id("D_visible");
+      const std::size_t n = nodes.size();
+      if (!c.bounded) return RunOne<double>(id, n, {}, v, nodes, c.distribution);
+      const DirectionColumns<double> h = RunDirection<double>("half_vector.reflection", n, {}, v, nodes);
+      Column<double> density = RunOne<double>(id, n, {}, v, h, c.distribution);
+      for (std::size_t i = 0; i < n; ++i) {
+        density[i] *= nodes.z[i] * v.z > 0 ? 1 / (4 * std::abs(Dot(v, h[i])) * CapShare(c)) : 0;
+      }
+      return density;
+    });
+    tally.Add(test, kSamples, c.Text());
+  }
+}
+
+// Bounded caps lose no more reflections below the surface than whole ones, and fewer where the bound is
+// active.
+TEST(VisibleNormalSampler, BoundedCapsLoseFewerReflections) {
+  constexpr std::size_t kSamples = 50000;
+  for (const float alpha : {0.1f, 0.3f, 0.6f, 1.0f, 2.0f}) {
+    std::string line;
+    for (const double theta : {0.0, 30.0, 60.0, 80.0, 89.0}) {
+      VisibleCase c{Ggx(alpha, alpha), theta, 1, Accuracy::kStandard, false};
+      double lost[2] = {0, 0};
+      for (const bool bounded : {false, true}) {
+        c.bounded = bounded;
+        std::mt19937_64 random(3);
+        const std::vector<Column<float>> out = SampleVisible(c, kSamples, random);
+        for (std::size_t i = 0; i < kSamples; ++i) {
+          const Direction m{out[0][i], out[1][i], out[2][i]};
+          lost[bounded ? 1 : 0] += 2 * Dot(c.v(), m) * m.z <= c.v().z ? 1.0 / kSamples : 0;
+        }
+      }
+      // The normals kept are the same, so what is lost falls exactly with the cap; 5 standard deviations.
+      const double expected = 1 - (1 - lost[0]) / CapShare(c), tolerance = 5 * std::sqrt(0.5 / kSamples);
+      EXPECT_NEAR(lost[1], expected, tolerance) << c.Text();
+      EXPECT_LE(lost[1], lost[0] + tolerance) << c.Text();
+      line += Text("  %.4f %.4f", lost[0], lost[1]);
+    }
+    std::printf("  alpha %-4g share lost, whole and bounded caps, at 0, 30, 60, 80, 89 degrees:%s\n",
+                double{alpha}, line.c_str());
   }
 }
 
@@ -756,6 +871,25 @@ TEST(Samplers, EdgesOfTheRandomNumbersGiveUnitVectors) {
           const Direction m{double{out[0][i]}, double{out[1][i]}, double{out[2][i]}};
           normals.Add(Length(m) - 1, tolerance, where);
           normals.Add(finite(m.z) && finite(out[3][i]) ? 0 : 1, 0, where);
+        }
+      }
+      for (const double vz : {1.0, 0.5, 1e-3, 1e-7, 1e-42, 0.0, -0.0, -1e-7, -0.5, -1.0}) {
+        if (family != "ggx") continue;
+        const double sine = std::sqrt((1 - vz) * (1 + vz));
+        for (const Direction& v : {Direction{0.8 * sine, 0.6 * sine, vz}, Direction{-sine, 0, vz}}) {
+          for (const char* quantity : {"sample_visible_normal", "sample_visible_normal_bounded"}) {
+            const std::vector<Column<T>> out =
+                RunAll<T>(distribution.Id(quantity), n, mode, v, u1, u2, distribution);
+            for (std::size_t i = 0; i < n; ++i) {
+              const auto where = [&] {
+                return distribution.Text() +
+                       Text(", %s, vz %g, u %a %a", quantity, vz, double{u1[i]}, double{u2[i]});
+              };
+              const Direction m{double{out[0][i]}, double{out[1][i]}, double{out[2][i]}};
+              normals.Add(Length(m) - 1, tolerance, where);
+              normals.Add(m.z > 0 && finite(out[3][i]) && out[3][i] > 0 ? 0 : 1, 0, where);
+            }
+          }
         }
       }
       for (const float eta : {1.5f, 1 / 1.5f, 1.0f, 1.0003f, 4.0f}) {

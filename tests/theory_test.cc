@@ -170,6 +170,39 @@ TEST(Masking, AreaFacingAViewIsOnePlusLambdaTimesItsCosineAndAreaAvertedLambda) 
   });
 }
 
+// Heitz 2014, Eqs. 16 and 17, of views on either side.
+TEST(VisibleNormals, DensityIntegratesToOne) {
+  ForEachLaneType([](auto lane, Accuracy accuracy, const std::string& name) {
+    using T = decltype(lane);
+    Tally tally("int D_visible = 1, " + name);
+    std::size_t num_nodes = 0;
+    for (const Distribution& distribution : SmithDistributions()) {
+      if (distribution.family != "ggx" || !distribution.form.empty()) continue;
+      for (const Direction& upper : Views()) {
+        for (const double side : {1.0, -1.0}) {
+          DirectionColumns<T> view;
+          view.PushBack(side * upper);
+          const NormalNodes nodes = NormalsOnSide(side * view[0], distribution.scale_x, distribution.scale_y,
+                                                  Side::kFacing, 96, 64);
+          const std::size_t n = nodes.size();
+          num_nodes += n;
+          const DirectionColumns<T> m = Rounded<T>(nodes.m);
+          const Column<T> density =
+              RunOne<T>(distribution.Id("D_visible"), n, {accuracy}, view[0], m, distribution);
+          double sum = 0;
+          for (std::size_t i = 0; i < n; ++i) sum += density[i] * nodes.solid_angle[i];
+          // Quadrature: 1e-10.
+          tally.AddRelative(sum, 1,
+                            1e-10 + DeclaredError<T>(distribution.Id("D_visible"), accuracy) +
+                                2 * InputError<T>(distribution),
+                            [&] { return distribution.Text() + " v " + Text(side * upper); });
+        }
+      }
+    }
+    tally.Note(", nodes " + std::to_string(num_nodes));
+  });
+}
+
 // Walter's recipe for Phong and his rational form for Beckmann are not the masking of those distributions. By
 // how much they miss int D <v.m> G1 = cos is stated here.
 TEST(Masking, ApproximateFormsMissTheProjectedAreaByLittle) {

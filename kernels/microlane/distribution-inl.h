@@ -38,12 +38,12 @@ HWY_INLINE Vec<D> TimesExpDensity(D d, Vec<D> factor, Vec<D> hx, Vec<D> hy, Vec<
   return ExpTimes<A>(d, high, low, factor);
 }
 
-// D(m) (Walter 2007 Eqs. 25, 33; Heitz 2014 Eqs. 82, 85) of a normal as given, not normalised.
+// factor pi D(m) (Walter 2007 Eqs. 25, 33; Heitz 2014 Eqs. 82, 85) of a normal as given, not normalised.
 template <class Dist, Accuracy A, class D, class... P>
-HWY_INLINE Vec<D> NormalDensity(D d, Vec<D> mx, Vec<D> my, Vec<D> mz, P... p) {
+HWY_INLINE Vec<D> TimesPiNormalDensity(D d, Vec<D> factor, Vec<D> mx, Vec<D> my, Vec<D> mz, P... p) {
   Vec<D> e, e_tail, w;
   Dist::template Density<Care::kCareful>(d, e, e_tail, w, mx, my, mz, p...);
-  const Vec<D> n = hn::Mul(w, Const(d, 1 / kPi));
+  const Vec<D> n = hn::Mul(w, factor);
   Vec<D> q;
   if constexpr (A == Accuracy::kFast) {
     const Vec<D> r = FastReciprocal(d, e);
@@ -61,6 +61,11 @@ HWY_INLINE Vec<D> NormalDensity(D d, Vec<D> mx, Vec<D> my, Vec<D> mz, P... p) {
   }
   if constexpr (Dist::kHasExponent) q = TimesExpDensity<Dist, A>(d, q, mx, my, mz, p...);
   return ZeroIf(hn::Le(mz, hn::Zero(d)), q);
+}
+
+template <class Dist, Accuracy A, class D, class... P>
+HWY_INLINE Vec<D> NormalDensity(D d, Vec<D> mx, Vec<D> my, Vec<D> mz, P... p) {
+  return TimesPiNormalDensity<Dist, A>(d, Const(d, 1 / kPi), mx, my, mz, p...);
 }
 
 struct DotOp {
@@ -94,6 +99,59 @@ HWY_INLINE Vec<D> G1(D d, Vec<D> vx, Vec<D> vy, Vec<D> vz, Vec<D> mx, Vec<D> my,
   Precisely<DotOp, Accuracy::kStandard>(d, dot, unused, vx, vy, vz, mx, my, mz);
   const Vec<D> zero = hn::Zero(d);
   return ZeroIf(hn::Or(hn::Le(FlipSign(d, dot, vz), zero), hn::Eq(vz, zero)), g1);
+}
+
+// 2^40 a.b, for products that are exact, as those of floats in double lanes are: right to a few roundings
+// where it cancels, and with all its bits as a float.
+struct CarefulDotOp {
+  template <Accuracy, class DD>
+  static HWY_INLINE void Run(DD d, Vec<DD>& dot, Vec<DD>& unused, Vec<DD> ax, Vec<DD> ay, Vec<DD> az,
+                             Vec<DD> bx, Vec<DD> by, Vec<DD> bz) {
+    Vec<DD> s, s_tail, t, t_tail;
+    TwoSum(hn::Mul(ax, bx), hn::Mul(ay, by), s, s_tail);
+    TwoSum(s, hn::Mul(az, bz), t, t_tail);
+    dot = unused = hn::Mul(hn::Add(t, hn::Add(s_tail, t_tail)), Const(d, 0x1p40));
+  }
+};
+
+// 2^40 G1 (v.m)/(pi v.n) where it is positive, from dot = 2^40 v.m: G1/|v.n| = 2/(|vz| + |vz| (1 + 2 Lambda))
+// is finite at grazing. sign(0) = 1: vz = 0 counts as above, and so does -0.
+template <class Dist>
+struct VisibilityOfDotOp {
+  template <Accuracy A, class D, class... P>
+  static HWY_INLINE void Run(D d, Vec<D>& visibility, Vec<D>& unused, Vec<D> dot, Vec<D> vx, Vec<D> vy,
+                             Vec<D> vz, P... p) {
+    const Vec<D> z = hn::Abs(vz);
+    const Vec<D> facing = hn::IfThenElse(hn::Lt(vz, hn::Zero(d)), hn::Neg(dot), dot);
+    visibility = unused = Div<A>(d, hn::Mul(facing, Const(d, 2 / kPi)),
+                                 hn::Add(z, Dist::template Masking<Care::kCareful, A>(d, vx, vy, z, p...)));
+  }
+};
+template <class Dist>
+struct VisibilityOp {
+  template <Accuracy A, class D, class... P>
+  static HWY_INLINE void Run(D d, Vec<D>& visibility, Vec<D>& unused, Vec<D> vx, Vec<D> vy, Vec<D> vz,
+                             Vec<D> mx, Vec<D> my, Vec<D> mz, P... p) {
+    Vec<D> dot;
+    CarefulDotOp::Run<A>(d, dot, unused, vx, vy, vz, mx, my, mz);
+    VisibilityOfDotOp<Dist>::template Run<A>(d, visibility, unused, dot, vx, vy, vz, p...);
+  }
+};
+
+// Density of visible normals (Heitz 2014 Eq. 16).
+template <class Dist, Accuracy A, class D, class... P>
+HWY_INLINE Vec<D> VisibleNormalDensity(D d, Vec<D> vx, Vec<D> vy, Vec<D> vz, Vec<D> mx, Vec<D> my, Vec<D> mz,
+                                       P... p) {
+  Vec<D> visibility, unused;
+  if constexpr (A == Accuracy::kFast) {
+    Vec<D> dot;
+    InDouble2<InStandard<CarefulDotOp>>(d, dot, unused, vx, vy, vz, mx, my, mz);
+    VisibilityOfDotOp<Dist>::template Run<A>(d, visibility, unused, dot, vx, vy, vz, p...);
+  } else {
+    InDouble2<InStandard<VisibilityOp<Dist>>>(d, visibility, unused, vx, vy, vz, mx, my, mz, p...);
+  }
+  const Vec<D> pi_density = TimesPiNormalDensity<Dist, A>(d, Const(d, 1), mx, my, mz, p...);
+  return ZeroIf(hn::Le(visibility, hn::Zero(d)), hn::Mul(hn::Mul(pi_density, visibility), Const(d, 0x1p-40)));
 }
 
 // Azimuth of Walter 2007 Eq. 29 and a normal from slopes r (alpha_x cos phi, alpha_y sin phi) (Heitz 2014

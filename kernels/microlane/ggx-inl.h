@@ -69,6 +69,71 @@ struct Ggx {
     NormalFromSlopes<A>(d, mx, my, mz, pdf, hn::Sqrt(hn::Mul(u1, w)), w, u2, area, AlphaX(p...),
                         AlphaY(p...));
   }
+
+  // Spherical caps (Dupuy and Benyoub 2023), every length times r = |q|, q = (alpha_x vx, alpha_y vy, |vz|),
+  // so that nothing is normalised before the end. With s = q/r, the point c of the cap above -k s.z has 1 -
+  // c.z = u1 (1 + k s.z) and 1 + c.z = 2 (1 - u1) + u1 (1 - k s.z), where 1 - k s.z = (1 - s.z) + (1 - k) s.z
+  // and s.z < 1 enters by 1 - s.z^2: no sum cancels. Then H = r (c + s) and M = (alpha_x Hx, alpha_y Hy, Hz)
+  // give m = M/|M| and, because v.M = |H|^2 / 2,
+  //   pdf = |M|^3 / (pi alpha_x alpha_y (r + k |vz|) |H|^2).
+  // k = 1 for all visible normals, pdf = D_v(m). kBounded: k of Eto and Tokuyoshi 2023 leaves out normals
+  // that reflect v below the surface.
+  template <bool kBounded, Accuracy A, class D, class... P>
+  static HWY_INLINE void SampleVisibleNormal(D d, Vec<D>& mx, Vec<D>& my, Vec<D>& mz, Vec<D>& pdf, Vec<D> vx,
+                                             Vec<D> vy, Vec<D> vz, Vec<D> u1, Vec<D> u2, P... p) {
+    const Vec<D> zero = hn::Zero(d), ax = AlphaX(p...), ay = AlphaY(p...);
+    const Vec<D> z = hn::Abs(vz);
+    const auto below = hn::Lt(vz, zero);
+    const Vec<D> qx = hn::Mul(ax, hn::IfThenElse(below, hn::Neg(vx), vx));
+    const Vec<D> qy = hn::Mul(ay, hn::IfThenElse(below, hn::Neg(vy), vy));
+    u1 = BelowOne(d, u1);
+    const Vec<D> w = hn::Sub(Const(d, 1), u1);
+    const Vec<D> s2 = hn::MulAdd(qx, qx, hn::Mul(qy, qy));
+    const Vec<D> r = CloseSqrt<A>(d, hn::MulAdd(z, z, s2));
+    Vec<D> rz = hn::Add(r, z), hz, sine2;  // r (1 + k s.z)
+    if constexpr (kBounded) {
+      const Vec<D> one = Const(d, 1), smaller = hn::Min(ax, ay);
+      const Vec<D> a = hn::IfThenElse(hn::Gt(smaller, one), one, smaller), a2 = hn::Mul(a, a);
+      const Vec<D> t = hn::Add(one, Sqrt<A>(d, hn::MulAdd(vx, vx, hn::Mul(vy, vy)))), t2 = hn::Mul(t, t);
+      const Vec<D> bound = hn::MulAdd(a2, hn::Mul(z, z), t2);
+      // z/bound and s2/(r + z) from one division.
+      const Vec<D> both = Div<A>(d, one, hn::Mul(bound, rz));
+      const Vec<D> over = hn::Mul(hn::Mul(both, rz), z);
+      const Vec<D> rest = hn::Mul(hn::Mul(a2, hn::MulAdd(z, z, t2)), over);  // (1 - k) |vz|
+      const Vec<D> short_by = hn::MulAdd(hn::Mul(both, bound), s2, rest);    // r (1 - k s.z)
+      rz = hn::MulAdd(hn::Mul(hn::NegMulAdd(a, a, one), t2), over, r);
+      hz = hn::MulAdd(w, rz, rest);
+      sine2 = hn::Mul(hn::Mul(u1, rz), hn::MulAdd(hn::Mul(w, Const(d, 2)), r, hn::Mul(u1, short_by)));
+    } else {
+      hz = hn::Mul(w, rz);
+      sine2 = hn::Mul(u1, hn::MulAdd(hn::Mul(hz, Const(d, 2)), r, hn::Mul(u1, s2)));
+    }
+    const Vec<D> sine = CloseSqrt<A>(d, sine2);
+    Vec<D> sin, cos;
+    SinCos2Pi<A>(d, u2, sin, cos);
+    const Vec<D> hx = hn::MulAdd(sine, cos, qx), hy = hn::MulAdd(sine, sin, qy);
+    const Vec<D> x = hn::Mul(ax, hx), y = hn::Mul(ay, hy);
+    const Vec<D> length2 = Dot(x, y, hz, x, y, hz);
+    // |H|^2 times a power of two that keeps all products in range, for |H| from 2^-24 1e-5 on.
+    const Vec<D> scale = Const(d, 0x1p50);
+    const Vec<D> h2 = Dot(hx, hy, hz, hx, hy, hz);
+    const Vec<D> area = hn::Mul(hn::Mul(hn::Mul(ax, ay), Const(d, kPi)), rz);
+    const Vec<D> divisor = hn::Mul(hn::Mul(h2, scale), area);
+    if constexpr (A == Accuracy::kFast) {
+      const Vec<D> inverse = FastReciprocalSqrt(d, length2);
+      pdf = hn::Mul(hn::Mul(length2, FastReciprocal(d, divisor)), hn::Mul(hn::Mul(length2, scale), inverse));
+      mx = hn::Mul(x, inverse);
+      my = hn::Mul(y, inverse);
+      mz = hn::Mul(hz, inverse);
+    } else {
+      const Vec<D> both = hn::Div(Const(d, 1), hn::Mul(hn::Sqrt(length2), divisor));
+      const Vec<D> inverse = hn::Mul(both, divisor);
+      pdf = hn::Mul(hn::Mul(length2, both), hn::Mul(length2, scale));
+      mx = hn::Mul(x, inverse);
+      my = hn::Mul(y, inverse);
+      mz = hn::Mul(hz, inverse);
+    }
+  }
 };
 
 }  // namespace

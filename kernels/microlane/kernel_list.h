@@ -23,11 +23,14 @@ struct Bounds {
 
 // How an output's error is scaled.
 enum class Metric {
-  kUlp,        // |got - exact| / ulp(exact)
-  kDirection,  // component of a unit vector: |got - exact| / ulp(1); sampled refraction: / ulp(1 + wi.m /
-               // |g|)
+  kUlp,  // |got - exact| / ulp(exact)
+  // Component of a unit vector: |got - exact| / ulp(kappa). kappa is 1; of sampled refraction 1 + wi.m / |g|;
+  // of sampled visible normals |(alpha_x (|c.x| + |s.x|), alpha_y (|c.y| + |s.y|), c.z + s.z)| over the same
+  // of c + s, where c is the point of the cap and s the stretched view.
+  kDirection,
   // |got - exact| / (ulp(exact) * kappa), where kappa >= 1 is the amplification of an input rounding by
-  // the geometry: kappa = (1 + 1/|wi.m|) (1 + (wi.m)^2/|g^2|) (1 + 1/|wo.z|), g of Walter 2007 Eq. 22.
+  // the geometry: kappa = (1 + 1/|wi.m|) (1 + (wi.m)^2/|g^2|) (1 + 1/|wo.z|), g of Walter 2007 Eq. 22. Of the
+  // density of a sampled visible normal: kDirection's kappa, or the same with alphas of 1 if that is more.
   kConditioned,
   kExact,  // an integer label; must agree
 };
@@ -122,6 +125,16 @@ inline constexpr std::string_view kLambdaExponentNote =
     "the largest finite number where the exact value exceeds it (vz = 0). Double lanes round an exponent of up to 745 "
     "once.";
 inline constexpr std::string_view kG1Note = "chi+((v.m)/(v.n)) / (1 + Lambda(v)); 0 where (v.m) vz <= 0.";
+inline constexpr std::string_view kDVisibleNote =
+    "D_v(m) = G1(v,m) |v.m| D(m) / |v.n| = 2 (v.m) D(m) / (|vz| + sqrt(vz^2 + (alpha_x vx)^2 + (alpha_y vy)^2)); v of "
+    "either side, -v in place of v below; vz = 0 counts as above. 0 where v.m and vz differ in sign, and where mz <= 0.";
+inline constexpr std::string_view kSampleVisibleNote =
+    "Spherical caps: s = normalize(alpha_x vx, alpha_y vy, vz), c of azimuth 2 pi u2 and c.z = (1 - u1)(1 + s.z) - s.z, "
+    "h = c + s, m = normalize(alpha_x hx, alpha_y hy, hz); pdf = D_v(m). Below the surface -v in place of v, so that mz > "
+    "0 on either side; vz = 0 counts as above. 0 where v = 0.";
+inline constexpr std::string_view kSampleBoundedNote =
+    "As ggx.sample_visible_normal with c.z = (1 - u1)(1 + k s.z) - k s.z, k = (1 - a^2) t^2/(t^2 + a^2 vz^2), a = min(alpha_x, "
+    "alpha_y, 1), t = 1 + sqrt(vx^2 + vy^2); pdf of m: D_v(m) (1 + s.z)/(1 + k s.z).";
 inline constexpr std::string_view kFresnelNote =
     "|cos_i| is used; 1 under total internal reflection; 0 at eta = 1.";
 inline constexpr std::string_view kEvalNote =
@@ -154,6 +167,9 @@ inline constexpr Kernel kComponentKernels[] = {
     {"ggx.G1", "vx vy vz mx my mz | alpha_x alpha_y", "G1", "Walter 2007 Eq. 34, stretched", kG1Note, false, {1, 4, 2048, 8, 3}},
     {"ggx.G1_isotropic", "vx vy vz mx my mz | alpha", "G1", "Walter 2007 Eq. 34", kG1Note, false, {1, 4, 2048, 8, 3}},
     {"ggx.sample_normal", "u1 u2 | alpha_x alpha_y", "mx my mz pdf", "Walter 2007 Eqs. 24, 35, 36, stretched", "m = normalize(alpha_x r cos(2 pi u2), alpha_y r sin(2 pi u2), 1), r = sqrt(u1/(1 - u1)); pdf = D cos.", false, {1, 16, 2800, 24, 15}},
+    {"ggx.D_visible", "vx vy vz mx my mz | alpha_x alpha_y", "D", "Heitz 2014 Eq. 16", kDVisibleNote, false, {1, 4, 4000, 8, 8}},
+    {"ggx.sample_visible_normal", "vx vy vz u1 u2 | alpha_x alpha_y", "mx my mz pdf", "Dupuy and Benyoub 2023; Heitz 2014 Eq. 16", kSampleVisibleNote, false, {1, 16, 2400, 24, 16}},
+    {"ggx.sample_visible_normal_bounded", "vx vy vz u1 u2 | alpha_x alpha_y", "mx my mz pdf", "Eto and Tokuyoshi 2023; Heitz 2014 Eq. 16", kSampleBoundedNote, false, {1, 16, 2800, 24, 16}},
 
     {"beckmann.D", "mx my mz | alpha_x alpha_y", "D", "Heitz 2014 Eq. 82; Walter 2007 Eq. 25", kStretchedExponent, false, {1, 4, 2800, 8, 3000}},
     {"beckmann.D_isotropic", "mx my mz | alpha", "D", "Walter 2007 Eq. 25", kStretchedExponent, false, {1, 4, 2800, 8, 3000}},
@@ -380,12 +396,18 @@ constexpr const Output& FindOutput(std::string_view name) {
   return kOutputs[i];
 }
 
-// A sampled direction's density is a function of the random numbers through the geometry, so it is
-// judged as the weight is; every other output has the metric of its name.
+// Whether a kernel samples a normal that is visible from a direction.
+constexpr bool SamplesVisibleNormal(const Kernel& kernel) {
+  return kernel.outputs == "mx my mz pdf" && kernel.inputs.substr(0, 2) == "vx";
+}
+
+// The density of a sampled direction or visible normal is a function of the random numbers through the
+// geometry, so it is judged as a weight is; every other output has the metric of its name.
 constexpr Metric MetricOf(const Kernel& kernel, std::string_view output) {
   const bool samples_direction =
       kernel.outputs.size() > 4 && kernel.outputs.substr(kernel.outputs.size() - 4) == "lobe";
-  return samples_direction && output == "pdf" ? Metric::kConditioned : FindOutput(output).metric;
+  const bool depends_on_view = samples_direction || SamplesVisibleNormal(kernel);
+  return depends_on_view && output == "pdf" ? Metric::kConditioned : FindOutput(output).metric;
 }
 
 }  // namespace microlane

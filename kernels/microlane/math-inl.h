@@ -43,6 +43,18 @@ HWY_INLINE Vec<D> SqrtOfPositive(D d, Vec<D> x) {
   }
 }
 
+// The same for what is about to cancel: kFast has a relative error below 2^-21.
+template <Accuracy A, class D>
+HWY_INLINE Vec<D> CloseSqrt(D d, Vec<D> x) {
+  if constexpr (A == Accuracy::kFast) {
+    const Vec<D> y = FastReciprocalSqrt(d, hn::Max(hn::Set(d, 1e-37f), x));
+    const Vec<D> root = hn::Mul(x, y);
+    return hn::MulAdd(hn::NegMulAdd(root, root, x), hn::Mul(hn::Set(d, 0.5f), y), root);
+  } else {
+    return Sqrt<A>(d, x);
+  }
+}
+
 template <Accuracy A, class D>
 HWY_INLINE Vec<D> Reciprocal(D d, Vec<D> x) {
   if constexpr (A == Accuracy::kFast) {

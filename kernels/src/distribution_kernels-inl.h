@@ -45,6 +45,27 @@ struct G1Kernel {
 };
 
 template <class Dist, const std::string_view& kName>
+struct DVisibleKernel {
+  static constexpr std::string_view kId = kName;
+  template <Accuracy A, class D, class... P>
+  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, Vec<D> vx, Vec<D> vy, Vec<D> vz,
+                              Vec<D> mx, Vec<D> my, Vec<D> mz, P... p) {
+    out.v0 = VisibleNormalDensity<Dist, A>(d, vx, vy, vz, mx, my, mz, p...);
+  }
+};
+
+template <class Dist, const std::string_view& kName, bool kBounded = false>
+struct SampleVisibleNormalKernel {
+  static constexpr std::string_view kId = kName;
+  template <Accuracy A, class D, class... P>
+  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, Vec<D> vx, Vec<D> vy, Vec<D> vz,
+                              Vec<D> u1, Vec<D> u2, P... p) {
+    Dist::template SampleVisibleNormal<kBounded, A>(d, out.v0, out.v1, out.v2, out.v3, vx, vy, vz, u1, u2,
+                                                    p...);
+  }
+};
+
+template <class Dist, const std::string_view& kName>
 struct SampleNormalKernel {
   static constexpr std::string_view kId = kName;
   template <Accuracy A, class D, class... P>

@@ -25,6 +25,14 @@ struct Ggx {
     return 2 / (1 + sqrt(1 + InverseA2(v, alpha)));
   }
 
+  // Heitz 2014, Eq. 16; at vz = 0 the limit from above.
+  Real DVisible(const Vec& v, const Vec& m) const {
+    const Real v_m = v.z < 0 ? Real(-Dot(v, m)) : Dot(v, m);
+    if (v_m <= 0) return 0;
+    if (v.z == 0) return 2 * v_m * D(m) / sqrt(Square(alpha.alpha_x * v.x) + Square(alpha.alpha_y * v.y));
+    return G1(v, m) * v_m * D(m) / abs(v.z);
+  }
+
   // Walter 2007, Eqs. 35 and 36, stretched.
   Vec SampleNormal(const Real& u1, const Real& u2) const {
     return StretchedNormal(sqrt(u1 / (1 - u1)), u2, alpha);

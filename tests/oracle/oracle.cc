@@ -76,6 +76,24 @@ void SampleNormal(Call& call) {
   StoreNormal(M::Make(call.in + 2), call);
 }
 
+template <class M>
+void DVisible(Call& call) {
+  call.out[0] = M::Make(call.in + 6).DVisible(Direction(call.in), Direction(call.in + 3));
+}
+
+template <class M, bool kBounded>
+void SampleVisibleNormal(Call& call) {
+  const auto distribution = M::Make(call.in + 5);
+  const Vec v = Direction(call.in);
+  const Real k = kBounded ? CapBound(v, distribution.alpha) : Real(1);
+  const CapNormal normal = VisibleNormal(v, call.in[3], call.in[4], distribution.alpha, k);
+  Store(normal.m, call.out);
+  call.out[3] = distribution.DVisible(v, normal.m) * (1 + normal.view.z) / (1 + k * normal.view.z);
+  call.direction_kappa = CapCancellation(normal, distribution.alpha);
+  const Real unstretched = CapCancellation(normal, {1, 1});
+  call.kappa = call.direction_kappa > unstretched ? call.direction_kappa : unstretched;
+}
+
 // The rough dielectric by its place in kDielectricQuantities.
 template <class M, std::size_t kQuantity>
 void Dielectric(Call& call) {
@@ -136,6 +154,9 @@ constexpr Entry kEntries[] = {
     {"ggx.G1", G1<GgxXy>},
     {"ggx.G1_isotropic", G1<GgxIsotropic>},
     {"ggx.sample_normal", SampleNormal<GgxXy>},
+    {"ggx.D_visible", DVisible<GgxXy>},
+    {"ggx.sample_visible_normal", SampleVisibleNormal<GgxXy, false>},
+    {"ggx.sample_visible_normal_bounded", SampleVisibleNormal<GgxXy, true>},
 
     {"beckmann.D", D<BeckmannXy>},
     {"beckmann.D_isotropic", D<BeckmannIsotropic>},

@@ -28,6 +28,43 @@ inline Vec StretchedNormal(const Real& r, const Real& u2, const Roughness& alpha
   return Normalized({alpha.alpha_x * r * phi.cos, alpha.alpha_y * r * phi.sin, 1});
 }
 
+// Eto and Tokuyoshi 2023: how much of the cap below the horizon reflection needs, from above the surface.
+inline Real CapBound(const Vec& v, const Roughness& alpha) {
+  const Real smaller = alpha.alpha_x < alpha.alpha_y ? alpha.alpha_x : alpha.alpha_y;
+  const Real a2 = smaller < 1 ? Square(smaller) : Real(1);
+  const Real s2 = Square(1 + sqrt(Square(v.x) + Square(v.y)));
+  return (1 - a2) * s2 / (s2 + a2 * Square(v.z));
+}
+
+// A visible normal from spherical caps, with the point of the cap and the stretched view that it is made of.
+struct CapNormal {
+  Vec m, cap, view;
+};
+
+// Dupuy and Benyoub 2023, with the azimuth from u2: uniform on the cap above -k view.z, where the view
+// is stretched (Heitz 2014, section 5); below the surface -v is seen.
+inline CapNormal VisibleNormal(const Vec& v, const Real& u1, const Real& u2, const Roughness& alpha,
+                               const Real& k = 1) {
+  const Vec upper = v.z < 0 ? -v : v;
+  const Vec view = Normalized({alpha.alpha_x * upper.x, alpha.alpha_y * upper.y, upper.z});
+  const Real z = (1 - u1) * (1 + k * view.z) - k * view.z;
+  const SinCos phi = SinCos2Pi(u2);
+  const Real sine = sqrt(1 - z * z);
+  const Vec cap{sine * phi.cos, sine * phi.sin, z};
+  const Vec h = cap + view;
+  return {Normalized({alpha.alpha_x * h.x, alpha.alpha_y * h.y, h.z}), cap, view};
+}
+
+// What stretching does to roundings of cap and view where their sum cancels: Metric::kDirection.
+inline Real CapCancellation(const CapNormal& normal, const Roughness& alpha) {
+  const Vec& c = normal.cap;
+  const Vec& s = normal.view;
+  const auto length2 = [&](const Real& x, const Real& y) {
+    return Square(alpha.alpha_x * x) + Square(alpha.alpha_y * y) + Square(c.z + s.z);
+  };
+  return sqrt(length2(abs(c.x) + abs(s.x), abs(c.y) + abs(s.y)) / length2(c.x + s.x, c.y + s.y));
+}
+
 // chi+((v.m) / (v.n)), the sidedness of Walter 2007, Eq. 7.
 inline bool SameSide(const Vec& v, const Vec& m) { return Dot(v, m) * v.z > 0; }
 

@@ -75,6 +75,13 @@ struct NormalKernels {
   static void G1(const Real* in, Real* out, Transport) {
     out[0] = scalar::G1(Parameters<Real>::Make(in + 6), Load(in), Load(in + 3));
   }
+  static void DVisible(const Real* in, Real* out, Transport) {
+    out[0] = scalar::DVisible(Parameters<Real>::Make(in + 6), Load(in), Load(in + 3));
+  }
+  template <bool kBounded>
+  static void SampleVisible(const Real* in, Real* out, Transport) {
+    Store(Parameters<Real>::Make(in + 5).SampleVisibleNormal(Load(in), in[3], in[4], kBounded), out);
+  }
   static void Sample(const Real* in, Real* out, Transport) {
     Store(Parameters<Real>::Make(in + 2).SampleNormal(in[0], in[1]), out);
   }
@@ -150,6 +157,9 @@ constexpr auto Entries() {
       Entry<Real>{"ggx.G1", GgxNormals::G1},
       Entry<Real>{"ggx.G1_isotropic", GgxIsotropicNormals::G1},
       Entry<Real>{"ggx.sample_normal", GgxNormals::Sample},
+      Entry<Real>{"ggx.D_visible", GgxNormals::DVisible},
+      Entry<Real>{"ggx.sample_visible_normal", GgxNormals::template SampleVisible<false>},
+      Entry<Real>{"ggx.sample_visible_normal_bounded", GgxNormals::template SampleVisible<true>},
 
       Entry<Real>{"beckmann.D", BeckmannNormals::D},
       Entry<Real>{"beckmann.D_isotropic", BeckmannIsotropicNormals::D},

@@ -2,6 +2,7 @@
 #ifndef MICROLANE_SCALAR_GGX_H_
 #define MICROLANE_SCALAR_GGX_H_
 
+#include <algorithm>
 #include <cmath>
 
 #include "microlane/scalar/direction.h"
@@ -15,7 +16,10 @@ struct Ggx {
 
   // Heitz 2014 Eq. 85 (Walter 2007 Eq. 33), with cos^4 multiplied into the bracket: sums of squares
   // only, and no 1 - cos^2. 0 for m.z <= 0.
-  Real D(const Vec3<Real>& m) const { return Saturate<Real>(DOf(Widen(m), Wide<Real>(1))); }
+  Real D(const Vec3<Real>& m) const { return Saturate<Real>(DTimes(m, 1)); }
+
+  // factor D(m), for a factor that may bring D back into range.
+  double DTimes(const Vec3<Real>& m, double factor) const { return factor * DOf(Widen(m), Wide<Real>(1)); }
 
   // factor D(half / |half|). The factor comes in, and the product leaves in double, because it may bring D
   // back into range.
@@ -44,6 +48,40 @@ struct Ggx {
     const double length = std::sqrt(length2);
     const double pdf = z * length * length2 / (kPi<double> * alpha_x * alpha_y);
     return {{x / length, y / length, z / length}, pdf};
+  }
+
+  // Dupuy and Benyoub 2023: half vectors h of the stretched view s and of points c that are uniform on the
+  // cap c.z > -k s.z, stretched back to m. 1 - c.z = u1 (1 + k s.z), 1 + c.z = 2 (1 - u1) + u1 (1 - k s.z),
+  // and h.z are sums of positive terms. The density is Heitz 2014 Eq. 16 where s.h = h.h / 2, over the share
+  // of the cap. Below the surface -v is seen. k = 1 draws from all visible normals. Bounded, for reflection:
+  // k = (1 - a^2) t^2 / (t^2 + a^2 v.z^2) with a = min(alpha_x, alpha_y, 1) and t = 1 + sin(theta_v), Eto and
+  // Tokuyoshi 2023.
+  SampledNormal<double> SampleVisibleNormal(const Vec3<Real>& v, double u1, double u2,
+                                            bool bounded = false) const {
+    if (AnyNan(v, u1, u2, alpha_x, alpha_y))
+      return {{kNan<double>, kNan<double>, kNan<double>}, kNan<double>};
+    const double side = Side(v), ax = alpha_x, ay = alpha_y;
+    const Vec3<double> stretched{side * ax * v.x, side * ay * v.y, side * v.z};
+    const double tangent = Hypot<Real>(stretched.x, stretched.y);
+    const double length = Hypot<Real>(tangent, stretched.z);
+    if (!(length > 0)) return {{0, 0, 0}, 0};
+    const Vec3<double> s = stretched / length;
+    double k = 1, one_minus_k = 0;
+    if (bounded) {
+      const double a2 = Square(std::min({ax, ay, 1.0}));
+      const double t2 = Square(1 + Hypot<Real>(v.x, v.y)), z2 = Square(double{v.z});
+      k = (1 - std::sqrt(a2)) * (1 + std::sqrt(a2)) * (t2 / (t2 + a2 * z2));
+      one_minus_k = a2 * ((z2 + t2) / (t2 + a2 * z2));
+    }
+    const double above = 1 + k * s.z;
+    const double below = Square(tangent / length) / (1 + s.z) + one_minus_k * s.z;  // 1 - k s.z
+    const double sin_c = std::sqrt(u1 * above * (2 * (1 - u1) + u1 * below));
+    const SinCos<double> phi = SinCos2Pi(u2);
+    const Vec3<double> h{sin_c * phi.cos + s.x, sin_c * phi.sin + s.y, (1 - u1) * above + one_minus_k * s.z};
+    const Vec3<double> m{ax * h.x, ay * h.y, h.z};
+    const double h2 = Dot(h, h), m_length = std::sqrt(Dot(m, m));
+    if (!(m_length > 0)) return {{0, 0, 0}, 0};
+    return {m / m_length, m_length * (Square(m_length) / h2) / (kPi<double> * ax * ay * above)};
   }
 
  private:

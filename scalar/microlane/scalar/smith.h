@@ -32,6 +32,16 @@ Real G1(const Distribution<Real>& distribution, const Vec3<Real>& v, const Vec3<
   return static_cast<Real>(cos_v / (cos_v + distribution.ScaledLambda(v, 1)));
 }
 
+// G1(v, m) |v.m| D(m) / |v.n|, Heitz 2014 Eq. 16, with |v.n| (1 + Lambda) formed at once: finite at grazing.
+// v.n = 0 counts as above the surface.
+template <template <class> class Distribution, class Real>
+Real DVisible(const Distribution<Real>& distribution, const Vec3<Real>& v, const Vec3<Real>& m) {
+  if (AnyNan(distribution, v, m)) return kNan<Real>;
+  const double facing = Side(v) * Narrow<double>(Dot(Widen(v), Widen(m)));
+  if (!(facing > 0)) return 0;
+  return Saturate<Real>(distribution.DTimes(m, facing / (std::abs(v.z) + distribution.ScaledLambda(v, 1))));
+}
+
 // G2(wi, wo) / |wi.n| for wi.n, wo.n != 0, sidedness left to the caller.
 template <Masking masking, template <class> class Distribution, class Real>
 double G2OverCos(const Distribution<Real>& distribution, const Vec3<Real>& wi, const Vec3<Real>& wo) {
