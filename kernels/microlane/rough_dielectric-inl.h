@@ -127,7 +127,7 @@ HWY_INLINE void InterfaceTermsSplit(D d, Vec<D>& ih, Vec<D>& oh, Vec<D>& h2, Vec
     g2 = OfLobe<kLobes>(transmits, hn::MulAdd(eoh, eoh, hn::Mul(hn::NegMulAdd(e2, b, a), h2)), g2r);
   }
   const Vec<D> off = hn::Max(hn::Abs(a), hn::Abs(b));
-  ill = hn::Lt(h2, hn::MulAdd(off, Const(d, 0x1p13), Const(d, 0x1p-11)));
+  ill = hn::Lt(h2, hn::MulAdd(off, Const(d, 0x1p13), Const(d, 0x1p-12)));
   if constexpr (kLobes != Lobes::kReflection) {
     ill = hn::Or(ill, hn::Lt(hn::Min(hn::Abs(ih), hn::Abs(oh)), Const(d, 0x1p-12)));
   }
@@ -274,7 +274,7 @@ HWY_INLINE void RoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& value, Ve
     if constexpr (kReflects) hard = hn::Lt(h2, OfLobe<kLobes>(transmits, zero, hn::Abs(skew)));
     if constexpr (kNeedsCosines) {
       const Vec<D> cos2 = hn::Min(hn::Mul(ih, ih), hn::Mul(oh, oh));
-      hard = hn::Or(hard, hn::Lt(cos2, hn::Mul(h2, Const(d, kFast ? 0x1p-19 : 0x1p-30))));
+      hard = hn::Or(hard, hn::Lt(cos2, hn::Mul(h2, Const(d, kFast ? 0x1p-20 : 0x1p-30))));
     }
   }
   if constexpr (!kWide && kNeedsFresnel) {
@@ -282,7 +282,7 @@ HWY_INLINE void RoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& value, Ve
     constexpr double kLeast = kFast ? 0x1p-13 : Dist::kHasExponent ? 0x1p-24 : 0x1p-19;
     hard = hn::Or(hard, hn::Lt(hn::Abs(hn::Mul(c2, g2)), hn::Mul(norm2, Const(d, kLeast))));
     if constexpr (kTransmits) {
-      constexpr double kLeastT = kFast ? 0x1p-10 : Dist::kHasExponent ? 0x1p-22 : 0x1p-13;
+      constexpr double kLeastT = kFast ? 0x1p-11 : Dist::kHasExponent ? 0x1p-22 : 0x1p-13;
       hard =
           hn::Or(hard, hn::Lt(hn::Abs(g2), OfLobe<kLobes>(transmits, hn::Mul(h2, Const(d, kLeastT)), zero)));
     }
