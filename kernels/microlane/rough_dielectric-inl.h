@@ -355,7 +355,13 @@ HWY_INLINE void RoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& value, Ve
   }
   // What may be tiny of itself (a cosine) is multiplied last.
   Vec<D> r = one;
-  if constexpr (kValue && kPdf) r = Reciprocal<A>(d, denominator);
+  // The errors of two roots add up in the separable masking; kFast leaves none to the division there.
+  constexpr bool kRefined = kFast && kG == JointMasking::kSeparable;
+  if constexpr (kRefined) {
+    r = RefinedReciprocal<A>(d, denominator);
+  } else if constexpr (kValue && kPdf) {
+    r = Reciprocal<A>(d, denominator);
+  }
 
   if constexpr (kValue) {
     // f_r |o.n| = F |H|^4 K/4 G/|i.n|, f_t |o.n| = eta^2 |i.H| |o.H| T K G/|i.n|.
@@ -369,7 +375,7 @@ HWY_INLINE void RoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& value, Ve
                      : kReflects             ? reflection
                                              : transmission;
     const Vec<D> numerator = hn::Mul(hn::Mul(kPdf ? hn::Mul(ws, Const(d, kFactor)) : ws, x), fresnel);
-    value = hn::Mul(kPdf ? hn::Mul(numerator, r) : Div<A>(d, numerator, denominator), zo);
+    value = hn::Mul(kPdf || kRefined ? hn::Mul(numerator, r) : Div<A>(d, numerator, denominator), zo);
     if constexpr (Dist::kHasExponent) value = ExpTimes<A>(d, log_high, log_low, value);
     value = ZeroIf(invalid, value);
   }
