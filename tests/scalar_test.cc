@@ -376,7 +376,7 @@ void Judge(std::size_t kernel, const double* in, bool importance, Worst& worst) 
   // At eta = 1 the refraction Jacobian is infinite, however its oracle rounds 1/0.
   const bool samples = outputs.name[outputs.count - 1] == "lobe";
   if (samples && got[5] == 2 && in[Split(kKernels[kernel].inputs).count - 1] == 1 && truth.exact[4] > 0) {
-    truth.exact[4] = truth.scale[4] = std::numeric_limits<oracle::Real>::infinity();
+    truth.exact[4] = truth.scale[4] = oracle::Infinity();
   }
   for (std::size_t i = 0; i < outputs.count; ++i) {
     const double error = UlpError(got[i], truth.exact[i], truth.scale[i]);

@@ -267,7 +267,7 @@ Result Evaluate(std::size_t kernel, const Real* inputs, Transport transport, int
   for (std::size_t i = 0; i < resolved.num_inputs; ++i) nan |= isnan(inputs[i]);
   if (nan) {
     for (std::size_t i = 0; i < resolved.num_outputs; ++i) {
-      result.exact[i] = result.scale[i] = std::numeric_limits<Real>::quiet_NaN();
+      result.exact[i] = result.scale[i] = Real(std::numeric_limits<double>::quiet_NaN());
     }
     return result;
   }

@@ -3,6 +3,7 @@
 #define MICROLANE_TESTS_ORACLE_REAL_H_
 
 #include <boost/multiprecision/mpfr.hpp>
+#include <limits>
 
 namespace microlane::oracle {
 
@@ -25,6 +26,10 @@ inline const Real& SqrtPi() {
   static const Real sqrt_pi = sqrt(Pi());
   return sqrt_pi;
 }
+
+// std::numeric_limits<Real>::infinity() of Boost 1.74 fills a static without a lock: another thread may see
+// 0.
+inline Real Infinity() { return Real(std::numeric_limits<double>::infinity()); }
 
 inline Real Square(const Real& x) { return x * x; }
 

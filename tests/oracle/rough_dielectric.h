@@ -153,9 +153,9 @@ struct RoughDielectric {
       sample.pdf *= RefractionJacobian(c, -cos_t, eta);
       sample.direction_kappa = 1 + c / sqrt(abs(g2));
       if (g2 <= 0)
-        sample.kappa = sample.direction_kappa = std::numeric_limits<Real>::infinity();  // only by a hint
+        sample.kappa = sample.direction_kappa = Infinity();  // only by a hint
       // Without an interface every facet refracts straight on: the density is a delta.
-      if (eta == 1) sample.pdf = std::numeric_limits<Real>::infinity();
+      if (eta == 1) sample.pdf = Infinity();
       if (transport == Transport::kImportance) sample.weight /= eta * eta;
     }
     return sample;
