@@ -152,8 +152,7 @@ struct RoughDielectric {
     } else {
       sample.pdf *= RefractionJacobian(c, -cos_t, eta);
       sample.direction_kappa = 1 + c / sqrt(abs(g2));
-      if (g2 <= 0)
-        sample.kappa = sample.direction_kappa = Infinity();  // only by a hint
+      if (g2 <= 0) sample.kappa = sample.direction_kappa = Infinity();  // only by a hint
       // Without an interface every facet refracts straight on: the density is a delta.
       if (eta == 1) sample.pdf = Infinity();
       if (transport == Transport::kImportance) sample.weight /= eta * eta;
