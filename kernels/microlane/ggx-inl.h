@@ -27,6 +27,15 @@ struct Ggx {
       const Vec<D> a = hn::Mul(hx, ux), b = hn::Mul(hy, uy), c = hn::Mul(hz, uz);
       e = Dot(a, b, c, a, b, c);
       e_tail = hn::Zero(d);
+    } else if constexpr (kCare == Care::kCompensated) {
+      Vec<D> a, b, c, a_tail, b_tail, c_tail;
+      TwoProduct(d, hx, ux, a, a_tail);
+      TwoProduct(d, hy, uy, b, b_tail);
+      TwoProduct(d, hz, uz, c, c_tail);
+      c_tail = hn::MulAdd(hz, uz_tail, c_tail);
+      const Vec<D> half_tail = Dot(a, b, c, a_tail, b_tail, c_tail);
+      e = hn::MulAdd(c, c, hn::MulAdd(b, b, hn::MulAdd(a, a, hn::Add(half_tail, half_tail))));
+      e_tail = hn::Zero(d);
     } else {
       Vec<D> a2, b2, c2, a2_tail, b2_tail, c2_tail, s, s_tail;
       SquareOfProduct(d, hx, ux, hn::Zero(d), a2, a2_tail);
@@ -42,7 +51,7 @@ struct Ggx {
   template <Care kCare, Accuracy A, class D, class... P>
   static HWY_INLINE Vec<D> Masking(D d, Vec<D> vx, Vec<D> vy, Vec<D> z, P... p) {
     const Vec<D> square = hn::MulAdd(z, z, ProjectedRoughness2<kCare>(d, vx, vy, p...));
-    return kCare == Care::kPlain ? SqrtOfPositive<A>(d, square) : Sqrt<A>(d, square);
+    return kCare != Care::kCareful ? SqrtOfPositive<A>(d, square) : Sqrt<A>(d, square);
   }
 
   // Lambda = t / (2 (1 + sqrt(1 + t))), t = tan^2 / a^2 form of Heitz 2014 Eq. 86: nothing cancels. vz is

@@ -62,41 +62,65 @@ struct InterfaceOp {
   }
 };
 
-// x = high + low with high a multiple of 2^-11, |x| < 2048: sums below 4 of products of two highs are exact.
+// Sums of products next to 6 all round on the grid of 2^-21, so that what each product lost is known exactly.
+constexpr double kGrid = 6;
+
+// v.v - 1 of a direction of length 1, within 2^-44 or a rounding: the last sum cancels.
 template <class D>
-HWY_INLINE void SplitOnGrid(D d, Vec<D> x, Vec<D>& high, Vec<D>& low) {
-  const Vec<D> shift = Const(d, 0x1.8p12);
-  high = hn::Sub(hn::Add(x, shift), shift);
-  low = hn::Sub(x, high);
+HWY_INLINE Vec<D> LengthSquaredMinus1(D d, Vec<D> x, Vec<D> y, Vec<D> z) {
+  const Vec<D> s0 = Const(d, kGrid), s1 = hn::MulAdd(x, x, s0), s2 = hn::MulAdd(y, y, s1);
+  const Vec<D> lost = hn::Add(hn::MulSub(x, x, hn::Sub(s1, s0)), hn::MulSub(y, y, hn::Sub(s2, s1)));
+  return hn::Add(hn::MulAdd(z, z, hn::Sub(s2, Const(d, kGrid + 1))), lost);
 }
 
-// a = i.i - 1, b = o.o - 1 and w + w_low = 1 + i.o of float directions of length 1 to within 2^-35, where
-// float products would leave 2^-24. w is on the grid of 2^-22.
+// 1 + a.b = high + low of directions of length 1: high on the grid, low within 2^-44.
+template <class D>
+HWY_INLINE void OnePlusDot(D d, Vec<D>& high, Vec<D>& low, Vec<D> ax, Vec<D> ay, Vec<D> az, Vec<D> bx,
+                           Vec<D> by, Vec<D> bz) {
+  const Vec<D> s0 = Const(d, kGrid);
+  const Vec<D> s1 = hn::MulAdd(ax, bx, s0), s2 = hn::MulAdd(ay, by, s1), s3 = hn::MulAdd(az, bz, s2);
+  high = hn::Sub(s3, Const(d, kGrid - 1));
+  low = hn::Add(hn::MulSub(ax, bx, hn::Sub(s1, s0)),
+                hn::Add(hn::MulSub(ay, by, hn::Sub(s2, s1)), hn::MulSub(az, bz, hn::Sub(s3, s2))));
+}
+
+struct UnitDotsOp {
+  template <class DD>
+  static HWY_INLINE void Run(DD dd, Vec<DD>& a, Vec<DD>& b, Vec<DD>& w, Vec<DD>& w_low, Vec<DD>& unused0,
+                             Vec<DD>& unused1, Vec<DD> ix, Vec<DD> iy, Vec<DD> iz, Vec<DD> ox, Vec<DD> oy,
+                             Vec<DD> oz) {
+    const Vec<DD> one = Const(dd, 1), shift = Const(dd, 0x1.8p31);
+    a = hn::Sub(Dot(ix, iy, iz, ix, iy, iz), one);
+    b = hn::Sub(Dot(ox, oy, oz, ox, oy, oz), one);
+    const Vec<DD> io = hn::Add(Dot(ix, iy, iz, ox, oy, oz), one);
+    w = hn::Sub(hn::Add(io, shift), shift);
+    w_low = hn::Sub(io, w);
+    unused0 = unused1 = w;
+  }
+};
+
+// a = i.i - 1, b = o.o - 1 and w + w_low = 1 + i.o of float directions of length 1 to within 2^-44, where
+// float products would leave 2^-24. w is on the grid of 2^-21.
 template <class D>
 HWY_INLINE void UnitDots(D d, Vec<D>& a, Vec<D>& b, Vec<D>& w, Vec<D>& w_low, Vec<D> ix, Vec<D> iy, Vec<D> iz,
                          Vec<D> ox, Vec<D> oy, Vec<D> oz) {
-  Vec<D> ixh, ixl, iyh, iyl, izh, izl, oxh, oxl, oyh, oyl, ozh, ozl;
-  SplitOnGrid(d, ix, ixh, ixl);
-  SplitOnGrid(d, iy, iyh, iyl);
-  SplitOnGrid(d, iz, izh, izl);
-  SplitOnGrid(d, ox, oxh, oxl);
-  SplitOnGrid(d, oy, oyh, oyl);
-  SplitOnGrid(d, oz, ozh, ozl);
-  const Vec<D> one = Const(d, 1);
-  a = hn::Add(hn::MulAdd(ixh, ixh, hn::MulAdd(iyh, iyh, hn::MulSub(izh, izh, one))),
-              Dot(ixl, iyl, izl, hn::Add(ix, ixh), hn::Add(iy, iyh), hn::Add(iz, izh)));
-  b = hn::Add(hn::MulAdd(oxh, oxh, hn::MulAdd(oyh, oyh, hn::MulSub(ozh, ozh, one))),
-              Dot(oxl, oyl, ozl, hn::Add(ox, oxh), hn::Add(oy, oyh), hn::Add(oz, ozh)));
-  w = hn::MulAdd(ixh, oxh, hn::MulAdd(iyh, oyh, hn::MulAdd(izh, ozh, one)));
-  w_low = hn::Add(Dot(ixl, iyl, izl, ox, oy, oz), Dot(ixh, iyh, izh, oxl, oyl, ozl));
+#if HWY_NATIVE_FMA
+  a = LengthSquaredMinus1(d, ix, iy, iz);
+  b = LengthSquaredMinus1(d, ox, oy, oz);
+  OnePlusDot(d, w, w_low, ix, iy, iz, ox, oy, oz);
+#else
+  Vec<D> unused0, unused1;
+  InDouble6<UnitDotsOp>(d, a, b, w, w_low, unused0, unused1, ix, iy, iz, ox, oy, oz);
+#endif
 }
 
 // The terms of TermsOfDots, i.H, o.H and H.H of H = i + e o in float lanes to a rounding or two. `ill` where
 // more is lost: lengths not near 1, H near 0, a facet seen edge-on.
 template <Lobes kLobes, class D>
 HWY_INLINE void InterfaceTermsSplit(D d, Vec<D>& ih, Vec<D>& oh, Vec<D>& h2, Vec<D>& c2, Vec<D>& s2,
-                                    Vec<D>& g2, hn::Mask<D>& ill, hn::Mask<D> transmits, Vec<D> ix, Vec<D> iy,
-                                    Vec<D> iz, Vec<D> ox, Vec<D> oy, Vec<D> oz, Vec<D> e, Vec<D> eta) {
+                                    Vec<D>& g2, Vec<D>& c2_plus_g2, hn::Mask<D>& ill, hn::Mask<D> transmits,
+                                    Vec<D> ix, Vec<D> iy, Vec<D> iz, Vec<D> ox, Vec<D> oy, Vec<D> oz,
+                                    Vec<D> e, Vec<D> eta, Vec<D> k) {
   Vec<D> a, b, w, w_low;
   UnitDots(d, a, b, w, w_low, ix, iy, iz, ox, oy, oz);
   const Vec<D> half = Const(d, 0.5), one = Const(d, 1), two = Const(d, 2);
@@ -105,6 +129,7 @@ HWY_INLINE void InterfaceTermsSplit(D d, Vec<D>& ih, Vec<D>& oh, Vec<D>& h2, Vec
   const Vec<D> s2_high = hn::NegMulAdd(half, w, one);
   const Vec<D> c2r = hn::MulAdd(half, w, low), s2r = hn::Sub(s2_high, low);
   const Vec<D> g2r = hn::Add(FusedMulSub(d, eta, eta, s2_high), low);
+  const Vec<D> sum_r = hn::Add(w, hn::MulAdd(two, low, k));
   if constexpr (kLobes == Lobes::kReflection) {
     h2 = hn::MulAdd(two, w, hn::MulAdd(two, w_low, hn::Add(a, b)));
     oh = hn::Mul(hn::Add(h2, hn::Sub(b, a)), half);
@@ -112,6 +137,7 @@ HWY_INLINE void InterfaceTermsSplit(D d, Vec<D>& ih, Vec<D>& oh, Vec<D>& h2, Vec
     c2 = c2r;
     s2 = s2r;
     g2 = g2r;
+    c2_plus_g2 = sum_r;
   } else {
     // s^2 H.H = e^2 ((i.i)(o.o) - (i.o)^2) - a H.H, and g^2 H.H = (e o.H)^2 + (a - e^2 b) H.H of a refracted
     // o.
@@ -125,9 +151,10 @@ HWY_INLINE void InterfaceTermsSplit(D d, Vec<D>& ih, Vec<D>& oh, Vec<D>& h2, Vec
     c2 = OfLobe<kLobes>(transmits, hn::Mul(ih, ih), c2r);
     s2 = OfLobe<kLobes>(transmits, hn::NegMulAdd(a, h2, hn::Mul(e2, cross2)), s2r);
     g2 = OfLobe<kLobes>(transmits, hn::MulAdd(eoh, eoh, hn::Mul(hn::NegMulAdd(e2, b, a), h2)), g2r);
+    c2_plus_g2 = OfLobe<kLobes>(transmits, hn::Add(c2, g2), sum_r);
   }
-  const Vec<D> off = hn::Max(hn::Abs(a), hn::Abs(b));
-  ill = hn::Lt(h2, hn::MulAdd(off, Const(d, 0x1p13), Const(d, 0x1p-12)));
+  const Vec<D> off2 = hn::MulAdd(a, a, hn::Mul(b, b));
+  ill = hn::Lt(hn::Mul(h2, h2), hn::MulAdd(off2, Const(d, 0x1p26), Const(d, 0x1p-24)));
   if constexpr (kLobes != Lobes::kReflection) {
     ill = hn::Or(ill, hn::Lt(hn::Min(hn::Abs(ih), hn::Abs(oh)), Const(d, 0x1p-12)));
   }
@@ -233,7 +260,8 @@ HWY_INLINE void RoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& value, Ve
   // transmission.
   constexpr Lobes kScaled = kWide ? Lobes::kTransmission : kLobes;
   const Vec<D> k = EtaSquaredMinus1(d, eta);
-  Vec<D> ih, oh, h2, c2, s2, g2, log_high = zero, log_low = zero;
+  Vec<D> ih, oh, h2, c2, s2, g2, c2_plus_g2 = zero, log_high = zero, log_low = zero;
+  constexpr bool kSplit = !kWide && !kFast && !Dist::kHasExponent;
   if constexpr (kWide || kFast) {
     ih = Dot(ix, iy, iz, hx, hy, hz);
     h2 = Dot(hx, hy, hz, hx, hy, hz);
@@ -266,15 +294,17 @@ HWY_INLINE void RoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& value, Ve
     h2 = OfLobe<kLobes>(transmits, hn::Add(c2t, s2), hn::Add(ih, oh));
     c2 = OfLobe<kLobes>(transmits, c2t, hn::NegMulAdd(Const(d, 0.25), h2, ih));
   } else {
-    InterfaceTermsSplit<kLobes>(d, ih, oh, h2, c2, s2, g2, hard, transmits, ix, iy, iz, ox, oy, oz, e, eta);
+    InterfaceTermsSplit<kLobes>(d, ih, oh, h2, c2, s2, g2, c2_plus_g2, hard, transmits, ix, iy, iz, ox, oy,
+                                oz, e, eta, k);
   }
-  const Vec<D> h4 = hn::Mul(h2, h2), norm2 = OfLobe<kScaled>(transmits, h4, one);
+  const Vec<D> h4 = hn::Mul(h2, h2), norm = OfLobe<kScaled>(transmits, h2, one),
+               norm2 = OfLobe<kScaled>(transmits, h4, one);
   if constexpr (!kWide && (kFast || Dist::kHasExponent)) {
     const Vec<D> skew = hn::Mul(hn::Sub(ih, oh), Const(d, kFast ? 0x1p6 : 0x1p13));
     if constexpr (kReflects) hard = hn::Lt(h2, OfLobe<kLobes>(transmits, zero, hn::Abs(skew)));
     if constexpr (kNeedsCosines) {
       const Vec<D> cos2 = hn::Min(hn::Mul(ih, ih), hn::Mul(oh, oh));
-      hard = hn::Or(hard, hn::Lt(cos2, hn::Mul(h2, Const(d, kFast ? 0x1p-20 : 0x1p-30))));
+      hard = hn::Or(hard, hn::Lt(cos2, hn::Mul(h2, Const(d, kFast ? 0x1p-18 : 0x1p-30))));
     }
   }
   if constexpr (!kWide && kNeedsFresnel) {
@@ -304,18 +334,25 @@ HWY_INLINE void RoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& value, Ve
 
   // K = w exp(log) / (pi density^2).
   Vec<D> density, unused, w;
-  Dist::template Density<Care::kPlain>(d, density, unused, w, hx, hy, hz, p...);
+  constexpr Care kDensityCare = kWide || kFast || Dist::kHasExponent ? Care::kPlain : Care::kCompensated;
+  Dist::template Density<kDensityCare>(d, density, unused, w, hx, hy, hz, p...);
 
-  // Fresnel, from squares times H.H; q = A M.
-  Vec<D> a = one, m = one, q = one, root = one, p2 = one;
+  // Fresnel, from squares times H.H, with N = p^2 + s^4 and M^2 = N + 2 p s^2: an error of p or N leaves the
+  // quotient of the two at half its size or less.
+  Vec<D> a = one, m2 = one, n = one, twice_p = one;
   const Vec<D> eta2 = hn::Mul(eta, eta);
   if constexpr (kNeedsFresnel) {
     g2 = hn::Max(kFast ? Const(d, 1e-25) : zero, g2);
-    p2 = hn::Mul(c2, g2);
-    root = SqrtOfPositive<A>(d, p2);
-    if constexpr (kFast) p2 = hn::Mul(root, root);  // so that the error of the root cancels
-    FresnelTerms<kWide>(d, a, m, hn::Add(c2, g2), root, s2);
-    q = hn::Mul(a, m);
+    const Vec<D> root = SqrtOfPositive<A>(d, hn::Mul(c2, g2));
+    twice_p = hn::Add(root, root);
+    a = hn::Add(kSplit ? hn::Max(c2, c2_plus_g2) : hn::Add(c2, g2), twice_p);
+    if constexpr (kWide) {
+      // Above 0 where c = g = 0 (no interface, no light), so that 0/0 is 0.
+      const Vec<D> low = Const(d, 1e-280);
+      a = hn::IfThenElse(hn::Lt(a, low), low, a);
+    }
+    n = hn::MulAdd(s2, s2, hn::Mul(root, root));
+    m2 = hn::MulAdd(twice_p, s2, n);
   }
 
   // masking: G/|i.n| |o.n| = kMaskingFactor zo / masking.
@@ -326,28 +363,28 @@ HWY_INLINE void RoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& value, Ve
     masking = MaskingDenominator<kG>(iz, mu_i, zo, mu_o);
   }
 
-  // Everything is over (scaled q density)^2 masking, with k^2 (p^2 + s^4) H.H^2 <= q^2 (reached under total
-  // internal reflection) and 2 p A (M^2 + eta^2 H.H^2) as the Fresnel factors F and T times q^2.
+  // Everything is over (scaled A density)^2 M^2 masking, with (k H.H)^2 N and 2 p A (M^2 + eta^2 H.H^2) as
+  // the Fresnel factors F and T times A^2 M^2. |k H.H| <= A is reached under total internal reflection.
   constexpr double kScale = kWide ? 1 : 0x1p21;
-  const Vec<D> dq = hn::Mul(hn::Mul(density, Const(d, kScale)), q);
-  const Vec<D> denominator = hn::Mul(hn::Mul(dq, dq), masking);
-  Vec<D> fresnel = one;  // F or T (both lobes: that of the lane), times q^2
+  const Vec<D> ad = hn::Mul(hn::Mul(density, Const(d, kScale)), a);
+  const Vec<D> denominator = hn::Mul(hn::Mul(hn::Mul(ad, ad), m2), masking);
+  Vec<D> fresnel = one;  // F or T (both lobes: that of the lane), times A^2 M^2
   if constexpr (kNeedsFresnel) {
     Vec<D> f = one, t = one;
     if constexpr (kReflects) {
-      const Vec<D> k2 = hn::Mul(k, k);
-      f = hn::Min(hn::Mul(q, q), hn::Mul(hn::Mul(k2, norm2), hn::MulAdd(s2, s2, p2)));
+      const Vec<D> kn = hn::Min(hn::Abs(hn::Mul(k, norm)), a);
+      f = hn::Mul(hn::Mul(kn, kn), n);
     }
     if constexpr (kTransmits) {
-      t = hn::Mul(hn::Mul(hn::Add(root, root), a), hn::MulAdd(m, m, hn::Mul(eta2, norm2)));
+      t = hn::Mul(hn::Mul(twice_p, a), hn::MulAdd(eta2, norm2, m2));
     }
     fresnel = kReflects && kTransmits ? hn::IfThenElse(transmits, t, f) : kReflects ? f : t;
   }
   constexpr double kFactor = kMaskingFactor<kG> * (kTransmits ? 1 : 0.25);  // of the value over K
   const Vec<D> ws = hn::Mul(w, Const(d, kScale * kScale / kPi * (kValue && !kPdf ? kFactor : 1)));
   if constexpr (!kWide) {
-    // Factors whose products could leave the range. F q^2 also bounds H.H (for q <= 2^11 H.H^2), so that
-    // rounding has not changed the sign of i.H or o.H, which are H.H/2 for unit vectors.
+    // Factors whose products could leave the range. F A^2 M^2 also bounds H.H (for A M <= 2^11 H.H^2), so
+    // that rounding has not changed the sign of i.H or o.H, which are H.H/2 for unit vectors.
     Vec<D> low = hn::Min(ws, kNeedsFresnel && kReflects && !kTransmits ? fresnel : hn::Mul(h2, h4));
     if constexpr (kValue) low = hn::Min(low, masking);
     hard =

@@ -17,13 +17,13 @@ namespace {
 // How far a lane function goes for accuracy and range. kPlain: rounding errors as they come, for inputs whose
 // products stay in range. kCareful: rounding errors of products carried, powers of two taken out of every
 // factor.
-enum class Care { kPlain, kCareful };
+enum class Care { kPlain, kCompensated, kCareful };
 
 // alpha = m / scale with scale a power of two and m in [1, 2); kPlain: m = alpha, scale = 1. Total: kCareful
 // keeps alpha within 2^-40 and 2^40; NaN passes.
 template <Care kCare, class D>
 HWY_INLINE void SplitAlpha(D d, Vec<D> alpha, Vec<D>& m, Vec<D>& scale) {
-  if constexpr (kCare == Care::kPlain) {
+  if constexpr (kCare != Care::kCareful) {
     m = alpha;
     scale = Const(d, 1);
   } else {
@@ -49,12 +49,17 @@ HWY_INLINE void Stretch(D d, Vec<D>& ux, Vec<D>& uy, Vec<D>& uz, Vec<D>& uz_tail
   Vec<D> ax, ay, sx, sy;
   SplitAlpha<kCare>(d, alpha_x, ax, sx);
   SplitAlpha<kCare>(d, alpha_y, ay, sy);
-  if constexpr (kCare == Care::kPlain) {
+  if constexpr (kCare != Care::kCareful) {
     ux = ay;
     uy = ax;
-    uz = hn::Mul(ax, ay);
+    Vec<D> last = hn::Mul(ax, ay);
+    uz = last;
     uz_tail = hn::Zero(d);
-    w = hn::Mul(hn::Mul(uz, uz), uz);
+    if constexpr (kCare == Care::kCompensated) {
+      TwoProduct(d, ax, ay, uz, uz_tail);
+      last = hn::MulAdd(Const(d, 3), uz_tail, uz);  // takes up three tails for one rounding
+    }
+    w = hn::Mul(hn::Mul(uz, uz), last);
   } else {
     ux = hn::Mul(ay, sx);
     uy = hn::Mul(ax, sy);
@@ -81,7 +86,7 @@ HWY_INLINE void Stretch(D d, Vec<D>& ux, Vec<D>& uy, Vec<D>& uz, Vec<D>& uz_tail
 template <Care kCare, class D>
 HWY_INLINE Vec<D> ProjectedRoughness2(D d, Vec<D> x, Vec<D> y, Vec<D> alpha_x, Vec<D> alpha_y) {
   const Vec<D> a = hn::Mul(alpha_x, x), b = hn::Mul(alpha_y, y);
-  if constexpr (kCare == Care::kPlain) {
+  if constexpr (kCare != Care::kCareful) {
     (void)d;
     return hn::MulAdd(a, a, hn::Mul(b, b));
   } else {
