@@ -1,6 +1,5 @@
 #include "src/dispatch.h"
 
-#include <atomic>
 #include <cctype>
 #include <cstdlib>
 
@@ -38,17 +37,24 @@ std::int64_t InitialTarget() {
   return target != 0 ? target : TargetByName("best");
 }
 
-struct Choice {
-  std::atomic<std::int64_t> target{InitialTarget()};
-  std::atomic<std::size_t> index{TableIndex(target)};
-};
-
-Choice& Chosen() {
-  static Choice choice;
-  return choice;
+// The first use makes the initial choice, of target and index.
+std::atomic<std::int64_t>& Chosen() {
+  static std::atomic<std::int64_t> chosen = [] {
+    const std::int64_t target = InitialTarget();
+    chosen_table_index.store(TableIndex(target), std::memory_order_relaxed);
+    return target;
+  }();
+  return chosen;
 }
 
 }  // namespace
+
+std::atomic<std::size_t> chosen_table_index{kNotChosen};
+
+std::size_t ChooseInitialTarget() {
+  Chosen();
+  return chosen_table_index.load(std::memory_order_relaxed);
+}
 
 std::vector<std::string> SupportedTargets() {
   std::vector<std::string> names;
@@ -57,13 +63,13 @@ std::vector<std::string> SupportedTargets() {
   return names;
 }
 
-std::string ChosenTarget() { return hwy::TargetName(Chosen().target.load()); }
+std::string ChosenTarget() { return hwy::TargetName(Chosen().load()); }
 
 std::string ChooseTarget(std::string_view name) {
   const std::int64_t target = TargetByName(name);
   if (target == 0) return UnknownTarget(name);
-  Chosen().target.store(target);
-  Chosen().index.store(TableIndex(target));
+  Chosen().store(target);
+  chosen_table_index.store(TableIndex(target));
   return "";
 }
 
@@ -80,7 +86,5 @@ bool TargetHasFma(std::string_view name) {
   return target != HWY_SCALAR && target != HWY_EMU128;
 #endif
 }
-
-std::size_t ChosenTableIndex() { return Chosen().index.load(std::memory_order_relaxed); }
 
 }  // namespace microlane

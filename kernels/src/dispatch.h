@@ -2,6 +2,7 @@
 #ifndef MICROLANE_SRC_DISPATCH_H_
 #define MICROLANE_SRC_DISPATCH_H_
 
+#include <atomic>
 #include <cstddef>
 
 #include "microlane/kernel_list.h"
@@ -25,8 +26,15 @@ struct FamilyCode {
 
 using FamilyFunction = FamilyCode (*)();
 
-// Index of the chosen target in the tables that HWY_EXPORT makes.
-std::size_t ChosenTableIndex();
+// Index of the chosen target in the tables that HWY_EXPORT makes; kNotChosen before the first use.
+inline constexpr std::size_t kNotChosen = ~std::size_t{0};
+extern std::atomic<std::size_t> chosen_table_index;
+std::size_t ChooseInitialTarget();  // its index
+
+inline std::size_t ChosenTableIndex() {
+  const std::size_t index = chosen_table_index.load(std::memory_order_relaxed);
+  return index != kNotChosen ? index : ChooseInitialTarget();
+}
 
 // The code of a kernel of the family, by its index in the kernel list.
 inline const KernelCode& CodeOf(const FamilyFunction* table, std::size_t kernel) {
@@ -63,6 +71,8 @@ const FamilyFunction* RoughDielectricTable<Normals::kPhong>();
 template <class T>
 class CallBuilder {
  public:
+  CallBuilder() {}  // NOLINT(modernize-use-equals-default): value initialisation would clear call_ first
+
   CallBuilder& In(const T* lanes) {
     call_.in[inputs_++] = lanes;
     return *this;
