@@ -1,8 +1,14 @@
 // Lane functions common to every distribution of normals, over a policy `Dist` with parameters p... (alpha;
 // alpha_x, alpha_y; exponent):
-//   Density     e + e_tail and w such that D(H/|H|) / |H|^4 = w exp(LogDensity) / (pi e^2) for any half
-//   vector H LogDensity  see there; used where kHasExponent; its rounding error is multiplied by up to 88, so
-//   double lanes Masking     |vz| (1 + 2 Lambda(v)) of z = |vz|; finite at grazing SampleNormal
+//
+// Density: e + e_tail and w such that D(H/|H|) / |H|^4 = w exp(LogDensity) / (pi e^2) for any half vector H.
+//
+// LogDensity: used where kHasExponent. CarefulLogDensity: the same as two numbers in float lanes, because its
+// rounding error is multiplied by up to 104.
+//
+// Masking: |vz| (1 + 2 Lambda(v)) of z = |vz|; finite at grazing.
+//
+// SampleNormal: m and its density D cos.
 #if defined(MICROLANE_DISTRIBUTION_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef MICROLANE_DISTRIBUTION_INL_H_
 #undef MICROLANE_DISTRIBUTION_INL_H_
@@ -20,27 +26,33 @@ namespace {
 template <class Dist>
 struct LogDensityOp {
   template <class DD, class... P>
-  static HWY_INLINE void Run(DD dd, Vec<DD>& high, Vec<DD>& low, Vec<DD> hx, Vec<DD> hy, Vec<DD> hz, P... p) {
-    SplitHigh(dd, Dist::LogDensity(dd, hx, hy, hz, p...), high, low);
+  static HWY_INLINE void Run(DD dd, Vec<DD>& high, Vec<DD>& low, Vec<DD> hx, Vec<DD> hy, Vec<DD> hz,
+                             Vec<DD> hx_tail, Vec<DD> hy_tail, Vec<DD> hz_tail, P... p) {
+    const Vec<DD> x = hn::Add(hx, hx_tail), y = hn::Add(hy, hy_tail), z = hn::Add(hz, hz_tail);
+    SplitHigh(dd, Dist::LogDensity(dd, x, y, z, p...), high, low);
   }
 };
 
-// factor exp(LogDensity) of a vector given exactly.
-template <class Dist, Accuracy A, class D, class... P>
-HWY_INLINE Vec<D> TimesExpDensity(D d, Vec<D> factor, Vec<D> hx, Vec<D> hy, Vec<D> hz, P... p) {
-  Vec<D> high, low;
-  if constexpr (A == Accuracy::kFast) {
-    high = Dist::LogDensity(d, hx, hy, hz, p...);
-    low = hn::Zero(d);
-  } else {
-    InDouble2<LogDensityOp<Dist>>(d, high, low, hx, hy, hz, p...);
-  }
-  return ExpTimes<A>(d, high, low, factor);
+// high + low = LogDensity of H + H_tail to 2^-33 of itself, in float lanes, less twice the log of what e +
+// e_tail of Density<kCare> has lost to rounding in e. r is 1/e to a few roundings.
+template <class Dist, Care kCare, class D, class... P>
+HWY_INLINE void CarefulLogDensity(D d, Vec<D>& high, Vec<D>& low, Vec<D> r, Vec<D> e, Vec<D> e_tail,
+                                  Vec<D> hx, Vec<D> hy, Vec<D> hz, Vec<D> hx_tail, Vec<D> hy_tail,
+                                  Vec<D> hz_tail, P... p) {
+#if HWY_NATIVE_FMA
+  (void)e_tail;  // in kPlain, Density has none
+  Dist::template CarefulLogDensity<kCare>(d, high, low, r, e, hx, hy, hz, hx_tail, hy_tail, hz_tail, p...);
+#else
+  (void)e;
+  InDouble2<LogDensityOp<Dist>>(d, high, low, hx, hy, hz, hx_tail, hy_tail, hz_tail, p...);
+  low = hn::Sub(low, hn::Mul(hn::Add(e_tail, e_tail), r));
+#endif
 }
 
 // factor pi D(m) (Walter 2007 Eqs. 25, 33; Heitz 2014 Eqs. 82, 85) of a normal as given, not normalised.
 template <class Dist, Accuracy A, class D, class... P>
 HWY_INLINE Vec<D> TimesPiNormalDensity(D d, Vec<D> factor, Vec<D> mx, Vec<D> my, Vec<D> mz, P... p) {
+  const Vec<D> zero = hn::Zero(d);
   Vec<D> e, e_tail, w;
   Dist::template Density<Care::kCareful>(d, e, e_tail, w, mx, my, mz, p...);
   const Vec<D> n = hn::Mul(w, factor);
@@ -48,6 +60,23 @@ HWY_INLINE Vec<D> TimesPiNormalDensity(D d, Vec<D> factor, Vec<D> mx, Vec<D> my,
   if constexpr (A == Accuracy::kFast) {
     const Vec<D> r = FastReciprocal(d, e);
     q = hn::Mul(hn::Mul(n, r), r);
+    if constexpr (Dist::kHasExponent) {
+      q = ExpTimes<A>(d, Dist::LogDensity(d, mx, my, mz, p...), zero, q);
+    }
+  } else if constexpr (Dist::kHasExponent) {
+    const Vec<D> r = hn::Div(Const(d, 1), e);
+    Vec<D> high, low;
+    if constexpr (kIsFloat<D>) {
+      CarefulLogDensity<Dist, Care::kCareful>(d, high, low, r, e, e_tail, mx, my, mz, zero, zero, zero, p...);
+    } else {
+      SplitHigh(d, Dist::LogDensity(d, mx, my, mz, p...), high, low);
+    }
+    // 1/e^2 = r^2 (1 + 2 (1 - e r)) but for squares, and r^2 = r2 + r2_tail.
+    const Vec<D> rest = FusedMulSub(d, e, r, Const(d, 1));
+    Vec<D> r2, r2_tail;
+    TwoProduct(d, r, r, r2, r2_tail);
+    low = hn::MulAdd(hn::Mul(r2_tail, e), e, hn::NegMulAdd(Const(d, 2), rest, low));
+    q = ExpTimes<A>(d, high, low, hn::Mul(n, r2));
   } else {
     // n / e^2 with the rounding errors of e^2 and of the quotient put back.
     Vec<D> e2, e2_tail, qe, qe_tail;
@@ -59,8 +88,7 @@ HWY_INLINE Vec<D> TimesPiNormalDensity(D d, Vec<D> factor, Vec<D> mx, Vec<D> my,
     const Vec<D> rest = hn::Sub(hn::Sub(hn::Sub(n, qe), qe_tail), hn::Mul(q, e2_tail));
     q = hn::MulAdd(rest, r, q);
   }
-  if constexpr (Dist::kHasExponent) q = TimesExpDensity<Dist, A>(d, q, mx, my, mz, p...);
-  return ZeroIf(hn::Le(mz, hn::Zero(d)), q);
+  return ZeroIf(hn::Le(mz, zero), q);
 }
 
 template <class Dist, Accuracy A, class D, class... P>

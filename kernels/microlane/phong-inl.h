@@ -39,6 +39,14 @@ struct Phong {
     return hn::Max(hn::Mul(hn::Mul(exponent, Const(d, -0.5)), log), Const(d, -2000));
   }
 
+  // In double lanes.
+  template <Care, class D>
+  static HWY_INLINE void CarefulLogDensity(D d, Vec<D>& high, Vec<D>& low, Vec<D>, Vec<D>, Vec<D> hx,
+                                           Vec<D> hy, Vec<D> hz, Vec<D> hx_tail, Vec<D> hy_tail,
+                                           Vec<D> hz_tail, Vec<D> exponent) {
+    InDouble2<LogDensityOp<Phong>>(d, high, low, hx, hy, hz, hx_tail, hy_tail, hz_tail, exponent);
+  }
+
   // 2/alpha^2 - 2 = 2 (1 - alpha)(1 + alpha)/alpha^2 (Walter 2007, after Eq. 30); 0 for alpha >= 1.
   template <Accuracy A, class D>
   static HWY_INLINE Vec<D> Exponent(D d, Vec<D> alpha) {

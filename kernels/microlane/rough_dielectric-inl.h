@@ -45,22 +45,20 @@ HWY_INLINE void TermsOfDots(D d, Vec<D>& c2, Vec<D>& s2, Vec<D>& g2, hn::Mask<D>
   g2 = OfLobe<kLobes>(transmits, hn::MulAdd(k, h2, c2t), hn::Add(k, c2r));
 }
 
-// The same with the dots and the exponent of D (as two numbers) for H = i + e o, for double lanes.
-template <class Dist, Lobes kLobes>
-struct InterfaceOp {
-  template <class DD, class... P>
-  static HWY_INLINE void Run(DD dd, Vec<DD>& ih, Vec<DD>& oh, Vec<DD>& s2, Vec<DD>& g2, Vec<DD>& log_high,
-                             Vec<DD>& log_low, Vec<DD> ix, Vec<DD> iy, Vec<DD> iz, Vec<DD> ox, Vec<DD> oy,
-                             Vec<DD> oz, Vec<DD> e, Vec<DD> eta, P... p) {
-    const Vec<DD> hx = hn::MulAdd(e, ox, ix), hy = hn::MulAdd(e, oy, iy), hz = hn::MulAdd(e, oz, iz);
-    ih = Dot(ix, iy, iz, hx, hy, hz);
-    oh = Dot(ox, oy, oz, hx, hy, hz);
-    Vec<DD> c2;
-    TermsOfDots<kLobes>(dd, c2, s2, g2, hn::Lt(oz, hn::Zero(dd)), ih, Dot(hx, hy, hz, hx, hy, hz),
-                        EtaSquaredMinus1(dd, eta));
-    SplitHigh(dd, Dist::LogDensity(dd, hx, hy, hz, p...), log_high, log_low);
+// h + h_tail = i + e o, h_tail below the rounding of h; e = 1 unless kScaled.
+template <bool kScaled, class D>
+HWY_INLINE void SumWithTail(D d, Vec<D>& h, Vec<D>& h_tail, Vec<D> i, Vec<D> o, Vec<D> e) {
+  if constexpr (kScaled) {
+    Vec<D> p, p_tail, s, s_tail;
+    TwoProduct(d, e, o, p, p_tail);
+    TwoSum(p, i, s, s_tail);
+    FastTwoSum(s, hn::Add(s_tail, p_tail), h, h_tail);
+  } else {
+    (void)d;
+    (void)e;
+    TwoSum(i, o, h, h_tail);
   }
-};
+}
 
 // Sums of products next to 6 all round on the grid of 2^-21, so that what each product lost is known exactly.
 constexpr double kGrid = 6;
@@ -239,8 +237,13 @@ HWY_INLINE void RoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& value, Ve
   Vec<D> e = one;
   if constexpr (kTransmits) e = kReflects ? hn::IfThenElse(transmits, eta, one) : eta;
 
-  Vec<D> hx, hy, hz, scale = one;
-  if constexpr (kTransmits) {
+  constexpr bool kCarefulExponent = Dist::kHasExponent && !kWide && !kFast;
+  Vec<D> hx, hy, hz, hx_tail = zero, hy_tail = zero, hz_tail = zero, scale = one;
+  if constexpr (kCarefulExponent) {
+    SumWithTail<kTransmits>(d, hx, hx_tail, ix, ox, e);
+    SumWithTail<kTransmits>(d, hy, hy_tail, iy, oy, e);
+    SumWithTail<kTransmits>(d, hz, hz_tail, iz, oz, e);
+  } else if constexpr (kTransmits) {
     hx = FusedMulAdd(d, e, ox, ix);
     hy = FusedMulAdd(d, e, oy, iy);
     hz = FusedMulAdd(d, e, oz, iz);
@@ -261,7 +264,7 @@ HWY_INLINE void RoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& value, Ve
   constexpr Lobes kScaled = kWide ? Lobes::kTransmission : kLobes;
   const Vec<D> k = EtaSquaredMinus1(d, eta);
   Vec<D> ih, oh, h2, c2, s2, g2, c2_plus_g2 = zero, log_high = zero, log_low = zero;
-  constexpr bool kSplit = !kWide && !kFast && !Dist::kHasExponent;
+  constexpr bool kSplit = !kWide && !kFast;
   if constexpr (kWide || kFast) {
     ih = Dot(ix, iy, iz, hx, hy, hz);
     h2 = Dot(hx, hy, hz, hx, hy, hz);
@@ -287,38 +290,33 @@ HWY_INLINE void RoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& value, Ve
         s2 = hn::NegMulAdd(ih, ih, h2);
       }
     }
-  } else if constexpr (Dist::kHasExponent) {
-    InDouble6<InterfaceOp<Dist, kLobes>>(d, ih, oh, s2, g2, log_high, log_low, ix, iy, iz, ox, oy, oz, e, eta,
-                                         p...);
-    const Vec<D> c2t = hn::Mul(ih, ih);
-    h2 = OfLobe<kLobes>(transmits, hn::Add(c2t, s2), hn::Add(ih, oh));
-    c2 = OfLobe<kLobes>(transmits, c2t, hn::NegMulAdd(Const(d, 0.25), h2, ih));
   } else {
     InterfaceTermsSplit<kLobes>(d, ih, oh, h2, c2, s2, g2, c2_plus_g2, hard, transmits, ix, iy, iz, ox, oy,
                                 oz, e, eta, k);
   }
   const Vec<D> h4 = hn::Mul(h2, h2), norm = OfLobe<kScaled>(transmits, h2, one),
                norm2 = OfLobe<kScaled>(transmits, h4, one);
-  if constexpr (!kWide && (kFast || Dist::kHasExponent)) {
-    const Vec<D> skew = hn::Mul(hn::Sub(ih, oh), Const(d, kFast ? 0x1p6 : 0x1p13));
+  if constexpr (!kWide && kFast) {
+    const Vec<D> skew = hn::Mul(hn::Sub(ih, oh), Const(d, 0x1p6));
     if constexpr (kReflects) hard = hn::Lt(h2, OfLobe<kLobes>(transmits, zero, hn::Abs(skew)));
     if constexpr (kNeedsCosines) {
       const Vec<D> cos2 = hn::Min(hn::Mul(ih, ih), hn::Mul(oh, oh));
-      hard = hn::Or(hard, hn::Lt(cos2, hn::Mul(h2, Const(d, kFast ? 0x1p-18 : 0x1p-30))));
+      hard = hn::Or(hard, hn::Lt(cos2, hn::Mul(h2, Const(d, 0x1p-18))));
     }
   }
   if constexpr (!kWide && kNeedsFresnel) {
     // The error of g^2 reaches F divided by c g, T divided by g^2.
-    constexpr double kLeast = kFast ? 0x1p-13 : Dist::kHasExponent ? 0x1p-24 : 0x1p-19;
+    constexpr double kLeast = kFast ? 0x1p-13 : 0x1p-19;
     hard = hn::Or(hard, hn::Lt(hn::Abs(hn::Mul(c2, g2)), hn::Mul(norm2, Const(d, kLeast))));
     if constexpr (kTransmits) {
-      constexpr double kLeastT = kFast ? 0x1p-11 : Dist::kHasExponent ? 0x1p-22 : 0x1p-13;
+      constexpr double kLeastT = kFast ? 0x1p-11 : 0x1p-13;
       hard =
           hn::Or(hard, hn::Lt(hn::Abs(g2), OfLobe<kLobes>(transmits, hn::Mul(h2, Const(d, kLeastT)), zero)));
     }
   }
 
   // Sidedness (Walter 2007 Eq. 7), H taken as pointing to the upper side.
+  const Vec<D> signed_hz = hz;
   Vec<D> least = hn::Min(iz, zo);
   if constexpr (kTransmits) {
     const Vec<D> side_i = FlipSign(d, ih, hz), side_o = FlipSign(d, oh, hn::Xor(hz, oz));
@@ -334,7 +332,7 @@ HWY_INLINE void RoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& value, Ve
 
   // K = w exp(log) / (pi density^2).
   Vec<D> density, unused, w;
-  constexpr Care kDensityCare = kWide || kFast || Dist::kHasExponent ? Care::kPlain : Care::kCompensated;
+  constexpr Care kDensityCare = kSplit ? Care::kCompensated : Care::kPlain;
   Dist::template Density<kDensityCare>(d, density, unused, w, hx, hy, hz, p...);
 
   // Fresnel, from squares times H.H, with N = p^2 + s^4 and M^2 = N + 2 p s^2: an error of p or N leaves the
@@ -398,6 +396,12 @@ HWY_INLINE void RoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& value, Ve
     r = RefinedReciprocal<A>(d, denominator);
   } else if constexpr (kValue && kPdf) {
     r = Reciprocal<A>(d, denominator);
+  }
+  if constexpr (kCarefulExponent) {
+    // A division of its own: the exponential need not wait for Fresnel and masking.
+    const Vec<D> over_density = hn::Div(one, density);
+    CarefulLogDensity<Dist, kDensityCare>(d, log_high, log_low, over_density, density, unused, hx, hy,
+                                          signed_hz, hx_tail, hy_tail, hz_tail, p...);
   }
 
   if constexpr (kValue) {
