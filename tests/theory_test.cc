@@ -605,7 +605,7 @@ TEST(Reciprocity, ReflectionIsSymmetricAndTransmissionUpToTheSquaredIndex) {
             // Below the normal range nothing is relative.
             if (std::min(there[i], back[i]) < std::numeric_limits<T>::min() * 0x1p20) continue;
             const double conditioning = PairConditioning(distribution, pairs, i, eta);
-            if (conditioning * kRounding<T> > 1e-2) continue;
+            if (kRounding<T> * conditioning > 1e-2) continue;
             const double tolerance = 2 * declared + 16 * conditioning * kRounding<T>;
             (pairs.reflects[i] ? reflection : transmission).AddRelative(f, f_back, tolerance, [&] {
               return PairText(distribution, pairs, i, eta);
