@@ -99,6 +99,7 @@ struct Ggx {
     const Vec<D> w = hn::Sub(Const(d, 1), u1);
     const Vec<D> s2 = hn::MulAdd(qx, qx, hn::Mul(qy, qy));
     const Vec<D> r = CloseSqrt<A>(d, hn::MulAdd(z, z, s2));
+    // NOLINTNEXTLINE(misc-const-correctness): assigned where kBounded
     Vec<D> rz = hn::Add(r, z), hz, sine2;  // r (1 + k s.z)
     if constexpr (kBounded) {
       const Vec<D> one = Const(d, 1), smaller = hn::Min(ax, ay);
