@@ -27,10 +27,10 @@ struct RoughDielectricKernel {
                                                       : Lobes::kTransmission;
   static constexpr JointMasking kG =
       kRow.separable ? JointMasking::kSeparable : JointMasking::kHeightCorrelated;
-  // Every input enters a product of the result; on SCALAR and EMU128, Min and Max drop NaN.
+  // Every input enters a product of the result; but Min and Max drop NaN on SCALAR, EMU128 and Arm.
   static constexpr bool kPassesNan = !Dist::kHasExponent && kValue && !kPdf &&
-                                     kLobes != Lobes::kTransmission && HWY_TARGET != HWY_SCALAR &&
-                                     HWY_TARGET != HWY_EMU128;
+                                     kLobes != Lobes::kTransmission && HWY_ARCH_X86 &&
+                                     HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128;
 
   template <Accuracy A, class D, class... V>
   static HWY_INLINE void Eval(D d, const Options<D>& options, const Outputs<D>& out, Vec<D> ix, Vec<D> iy,
