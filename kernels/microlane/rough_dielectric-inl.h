@@ -217,8 +217,9 @@ HWY_INLINE V MaskingDenominator(V zi, V mu_i, V zo, V mu_o) {
   }
 }
 template <JointMasking kG>
-constexpr double kMaskingFactor = kG == JointMasking::kHeightCorrelated ? 2 : 4;
+constexpr double kMaskingFactor = kG == JointMasking::kHeightCorrelated ? 2.0 : 4.0;
 
+// NOLINTBEGIN(misc-const-correctness): what one instantiation leaves alone, another assigns.
 // One pass. In float lanes `hard` marks the lanes that double lanes must do: some product may have
 // underflowed, or cancellation has taken too much.
 template <class Dist, Lobes kLobes, JointMasking kG, bool kValue, bool kPdf, Accuracy A, class D, class... P>
@@ -436,6 +437,7 @@ HWY_INLINE void RoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& value, Ve
     pdf = ZeroIf(invalid, x);
   }
 }
+// NOLINTEND(misc-const-correctness)
 
 // RoughDielectricPass in double lanes; `radiance` as a number, 1 or 0.
 template <class Dist, Lobes kLobes, JointMasking kG, bool kValue, bool kPdf>
