@@ -73,6 +73,16 @@ HWY_INLINE Vec<D> FastReciprocalSqrt(D d, Vec<D> x) {
 #endif
 }
 
+// x, a whole number or NaN, as an integer; NaN gives any. Highway's SCALAR and EMU128 cast it, which is
+// undefined.
+template <class DI, class V>
+HWY_INLINE hn::Vec<DI> ToInteger(DI di, V x) {
+#if HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_EMU128
+  x = hn::IfThenElseZero(hn::Eq(x, x), x);
+#endif
+  return hn::ConvertTo(di, x);
+}
+
 // Runs Op::Run(double tag, double inputs..., double outputs&...) on the double lanes of float vectors, and
 // rounds the outputs once. Double tags run Op on the lanes as they are. Outputs come first.
 template <class Op, class D, class... In>

@@ -225,7 +225,7 @@ HWY_INLINE Vec<D> ExpTimes(D d, Vec<D> x, Vec<D> tail, Vec<D> factor) {
   }
   const Vec<D> y = hn::MulAdd(factor, hn::MulAdd(hn::Mul(r, r), p, r), factor);
   // 2^n in two factors, so that subnormal results are rounded once.
-  const auto ni = hn::ConvertTo(di, n);
+  const auto ni = ToInteger(di, n);
   const auto n1 = hn::ShiftRight<1>(ni);
   const auto n2 = hn::Sub(ni, n1);
   const auto bias = hn::Set(di, static_cast<hn::TFromD<decltype(di)>>(kBias));
@@ -355,7 +355,7 @@ HWY_INLINE void SinCos2Pi(D d, Vec<D> u, Vec<D>& sin, Vec<D>& cos) {
          -0.5434452619824003960502523113973438739776611328125});
   }
   // Quarter turns: odd ones swap, 2 and 3 negate the sine, 1 and 2 the cosine.
-  const auto qi = hn::ConvertTo(di, q);
+  const auto qi = ToInteger(di, q);
   using I = hn::TFromD<decltype(di)>;
   constexpr int kSign = sizeof(I) * 8 - 2;
   const auto one = hn::Set(di, I{1}), two = hn::Set(di, I{2});
