@@ -298,7 +298,7 @@ HWY_INLINE void RoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& value, Ve
   const Vec<D> h4 = hn::Mul(h2, h2), norm = OfLobe<kScaled>(transmits, h2, one),
                norm2 = OfLobe<kScaled>(transmits, h4, one);
   if constexpr (!kWide && kFast) {
-    const Vec<D> skew = hn::Mul(hn::Sub(ih, oh), Const(d, 0x1p6));
+    const Vec<D> skew = hn::Mul(hn::Sub(ih, oh), Const(d, 0x1p7));
     if constexpr (kReflects) hard = hn::Lt(h2, OfLobe<kLobes>(transmits, zero, hn::Abs(skew)));
     if constexpr (kNeedsCosines) {
       const Vec<D> cos2 = hn::Min(hn::Mul(ih, ih), hn::Mul(oh, oh));
