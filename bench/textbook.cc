@@ -138,10 +138,10 @@ struct Ggx {
   }
 };
 
-struct GgxIsotropic {
+struct GgxIsotropic : Ggx {
   float alpha;
 
-  static GgxIsotropic Make(const float* in) { return {in[0]}; }
+  static GgxIsotropic Make(const float* in) { return {{in[0], in[0]}, in[0]}; }
 
   float D(const Vec3& wm) const {
     const float tan2_theta = Tan2Theta(wm);
@@ -192,10 +192,10 @@ struct Beckmann {
   }
 };
 
-struct BeckmannIsotropic {
+struct BeckmannIsotropic : Beckmann {
   float alpha;
 
-  static BeckmannIsotropic Make(const float* in) { return {in[0]}; }
+  static BeckmannIsotropic Make(const float* in) { return {{in[0], in[0]}, in[0]}; }
 
   float D(const Vec3& wm) const {
     const float tan2_theta = Tan2Theta(wm);
@@ -232,9 +232,55 @@ struct Phong {
   }
 };
 
+// Correlated and off-centre slopes as Heitz 2014 Eqs. 92-97 print them.
+template <class Base>
+struct Sheared {
+  float alpha_x, alpha_y, r_xy, mean_x = 0, mean_y = 0;
+
+  float Cosine(const Vec3& w) const { return w.z - mean_x * w.x - mean_y * w.y; }
+
+  float D(const Vec3& wm) const {
+    if (wm.z <= 0) return 0;
+    const float x = wm.x / wm.z + mean_x, y = wm.y / wm.z + mean_y;
+    const float determinant = Sqr(alpha_x) * Sqr(alpha_y) * (1 - Sqr(r_xy));
+    const float e =
+        (Sqr(x * alpha_y) + Sqr(y * alpha_x) - 2 * x * y * r_xy * alpha_x * alpha_y) / determinant;
+    const float shape = Base::kNormals == Normals::kGgx ? 1 / Sqr(1 + e) : std::exp(-e);
+    return shape / (kPi * std::sqrt(determinant) * Sqr(Sqr(wm.z)));
+  }
+
+  float Lambda(const Vec3& w) const {
+    const float alpha2 = Sqr(alpha_x * w.x) + Sqr(alpha_y * w.y) + 2 * w.x * w.y * r_xy * alpha_x * alpha_y;
+    if (!(alpha2 > 0)) return 0;
+    const float a = std::abs(Cosine(w)) / std::sqrt(alpha2);
+    return Base::kNormals == Normals::kGgx ? (std::sqrt(1 + 1 / Sqr(a)) - 1) / 2 : RationalLambda(a);
+  }
+
+  Vec3 FromUnit(const Vec3& wm) const {
+    const float y = r_xy * wm.x + std::sqrt(1 - Sqr(r_xy)) * wm.y;
+    return Normalize({alpha_x * wm.x - mean_x * wm.z, alpha_y * y - mean_y * wm.z, wm.z});
+  }
+  Vec3 SampleNormal(float u1, float u2) const { return FromUnit(Base{1, 1}.SampleNormal(u1, u2)); }
+  Vec3 SampleVisibleNormal(const Vec3& w, float u1, float u2) const {
+    const Vec3 view{alpha_x * w.x + r_xy * alpha_y * w.y, std::sqrt(1 - Sqr(r_xy)) * alpha_y * w.y,
+                    Cosine(w)};
+    return FromUnit(Base{1, 1}.SampleVisibleNormal(Normalize(view), u1, u2));
+  }
+};
+
+// The cosine that masking goes by.
+template <class Distribution>
+float Cosine(const Distribution&, const Vec3& w) {
+  return CosTheta(w);
+}
+template <class Base>
+float Cosine(const Sheared<Base>& distribution, const Vec3& w) {
+  return distribution.Cosine(w);
+}
+
 template <class Distribution>
 float G1(const Distribution& distribution, const Vec3& w, const Vec3& wm) {
-  if (Dot(w, wm) * CosTheta(w) <= 0) return 0;
+  if (Dot(w, wm) * Cosine(distribution, w) <= 0) return 0;
   return 1 / (1 + distribution.Lambda(w));
 }
 
@@ -365,53 +411,70 @@ inline void Store(const Vec3& v, float* out) {
   out[2] = v.z;
 }
 
-template <class Distribution>
-void D(const float* in, float* out, Transport) {
-  out[0] = Distribution::Make(in + 3).D(Load(in));
-}
-template <class Distribution>
-void Lambda(const float* in, float* out, Transport) {
-  out[0] = Distribution::Make(in + 3).Lambda(Load(in));
-}
-template <class Distribution>
-void MaskingG1(const float* in, float* out, Transport) {
-  out[0] = G1(Distribution::Make(in + 6), Load(in), Load(in + 3));
-}
-template <class Distribution>
-void SampleNormal(const float* in, float* out, Transport) {
-  const Distribution distribution = Distribution::Make(in + 2);
-  const Vec3 wm = distribution.SampleNormal(in[0], in[1]);
-  Store(wm, out);
-  out[3] = distribution.D(wm) * AbsCosTheta(wm);
-}
 // pbrt-v4: of a view above the surface; the sampler turns it there.
 template <class Distribution>
 float VisibleDensity(const Distribution& distribution, const Vec3& w, const Vec3& wm) {
-  return 1 / (1 + distribution.Lambda(w)) / AbsCosTheta(w) * distribution.D(wm) * AbsDot(w, wm);
+  return 1 / (1 + distribution.Lambda(w)) / std::abs(Cosine(distribution, w)) * distribution.D(wm) *
+         AbsDot(w, wm);
 }
-template <class Distribution>
-void DVisible(const float* in, float* out, Transport) {
-  const Vec3 w = Load(in), wm = Load(in + 3);
-  out[0] = Dot(w, wm) * CosTheta(w) <= 0 ? 0 : VisibleDensity(Distribution::Make(in + 6), w, wm);
+
+// A distribution from its parameters, as they follow the other inputs.
+template <RoughnessKind kRoughness, class Anisotropic, class Isotropic>
+auto MakeRough(const float* in) {
+  if constexpr (kRoughness == RoughnessKind::kIsotropic) {
+    return Isotropic::Make(in);
+  } else if constexpr (kRoughness == RoughnessKind::kAnisotropic) {
+    return Anisotropic::Make(in);
+  } else if constexpr (kRoughness == RoughnessKind::kRotated) {
+    return Sheared<Anisotropic>{in[0], in[1], in[2]};
+  } else {
+    return Sheared<Anisotropic>{in[0], in[1], in[2], in[3], in[4]};
+  }
 }
-template <class Distribution>
-void SampleVisibleNormal(const float* in, float* out, Transport) {
-  const Distribution distribution = Distribution::Make(in + 5);
-  const Vec3 w = in[2] < 0 ? -Load(in) : Load(in);
-  const Vec3 wm = distribution.SampleVisibleNormal(w, in[3], in[4]);
-  Store(wm, out);
-  out[3] = VisibleDensity(distribution, w, wm);
+template <Normals kNormals, RoughnessKind kRoughness>
+auto MakeNormals(const float* in) {
+  if constexpr (kNormals == Normals::kPhong) return Phong::Make(in);
+  if constexpr (kNormals == Normals::kBeckmann) return MakeRough<kRoughness, Beckmann, BeckmannIsotropic>(in);
+  if constexpr (kNormals == Normals::kGgx) return MakeRough<kRoughness, Ggx, GgxIsotropic>(in);
 }
-template <class Distribution>
-void SampleVisibleNormalBounded(const float* in, float* out, Transport) {
-  const Distribution distribution = Distribution::Make(in + 5);
-  const Vec3 w = in[2] < 0 ? -Load(in) : Load(in);
-  const Vec3 wm = distribution.SampleVisibleNormalBounded(w, in[3], in[4]);
-  Store(wm, out);
-  const float length =
-      std::sqrt(Sqr(distribution.alpha_x * w.x) + Sqr(distribution.alpha_y * w.y) + Sqr(w.z));
-  out[3] = 2 * AbsDot(w, wm) * distribution.D(wm) / (distribution.CapBound(w) * w.z + length);
+
+// A quantity of a distribution by its place in kNormalKernelPlaces.
+template <std::size_t kPlace>
+void OfNormals(const float* in, float* out, Transport) {
+  constexpr NormalRow row = kNormalRows[kNormalKernelPlaces[kPlace].row];
+  constexpr std::size_t parameters = Split(kNormalQuantities[row.what].lanes).count;
+  const auto normals = MakeNormals<row.normals, kNormalKernelPlaces[kPlace].roughness>(in + parameters);
+  if constexpr (row.what == NormalQuantity::kD) {
+    out[0] = normals.D(Load(in));
+  } else if constexpr (row.what == NormalQuantity::kLambda) {
+    out[0] = normals.Lambda(Load(in));
+  } else if constexpr (row.what == NormalQuantity::kG1 && row.normals == Normals::kPhong) {
+    const Vec3 w = Load(in);
+    out[0] = Dot(w, Load(in + 3)) * CosTheta(w) <= 0 ? 0 : RationalG1(normals.A(w));
+  } else if constexpr (row.what == NormalQuantity::kG1) {
+    out[0] = G1(normals, Load(in), Load(in + 3));
+  } else if constexpr (row.what == NormalQuantity::kDVisible) {
+    const Vec3 w = Load(in), wm = Load(in + 3);
+    out[0] = Dot(w, wm) * Cosine(normals, w) <= 0 ? 0 : VisibleDensity(normals, w, wm);
+  } else if constexpr (row.what == NormalQuantity::kSampleNormal) {
+    const Vec3 wm = normals.SampleNormal(in[0], in[1]);
+    Store(wm, out);
+    out[3] = normals.D(wm) * AbsCosTheta(wm);
+  } else {
+    const Vec3 w = Cosine(normals, Load(in)) < 0 ? -Load(in) : Load(in);
+    if constexpr (row.what == NormalQuantity::kSampleVisible) {
+      const Vec3 wm = normals.SampleVisibleNormal(w, in[3], in[4]);
+      Store(wm, out);
+      out[3] = VisibleDensity(normals, w, wm);
+    } else {
+      const Vec3 wm = normals.SampleVisibleNormalBounded(w, in[3], in[4]);
+      Store(wm, out);
+      const float length = std::sqrt(Sqr(normals.alpha_x * w.x) + Sqr(normals.alpha_y * w.y) + Sqr(w.z));
+      out[3] = 2 * AbsDot(w, wm) * normals.D(wm) / (normals.CapBound(w) * w.z + length);
+    }
+  }
 }
+
 void SampleNormalWidened(const float* in, float* out, Transport) {
   const float scale = 1.2f - 0.2f * std::sqrt(std::abs(in[2]));
   const Beckmann distribution{scale * in[3], scale * in[4]};
@@ -419,10 +482,9 @@ void SampleNormalWidened(const float* in, float* out, Transport) {
   Store(wm, out);
   out[3] = distribution.D(wm) * AbsCosTheta(wm);
 }
-template <class Distribution>
 void MaskingG1Rational(const float* in, float* out, Transport) {
   const Vec3 w = Load(in);
-  out[0] = Dot(w, Load(in + 3)) * CosTheta(w) <= 0 ? 0 : RationalG1(Distribution::Make(in + 6).A(w));
+  out[0] = Dot(w, Load(in + 3)) * CosTheta(w) <= 0 ? 0 : RationalG1(Beckmann::Make(in + 6).A(w));
 }
 
 // The rough dielectric by its place in kDielectricQuantities.
@@ -539,31 +601,10 @@ constexpr std::array kEntries = {
     Make<KernelIndex("math.sincos_2pi"), SinCos2Pi>(),
     Make<KernelIndex("math.erfcx_defect"), ErfcxDefect>(),
 
-    Make<KernelIndex("ggx.D"), D<Ggx>>(),
-    Make<KernelIndex("ggx.D_isotropic"), D<GgxIsotropic>>(),
-    Make<KernelIndex("ggx.Lambda"), Lambda<Ggx>>(),
-    Make<KernelIndex("ggx.Lambda_isotropic"), Lambda<GgxIsotropic>>(),
-    Make<KernelIndex("ggx.G1"), MaskingG1<Ggx>>(),
-    Make<KernelIndex("ggx.G1_isotropic"), MaskingG1<GgxIsotropic>>(),
-    Make<KernelIndex("ggx.sample_normal"), SampleNormal<Ggx>>(),
-    Make<KernelIndex("ggx.D_visible"), DVisible<Ggx>>(),
-    Make<KernelIndex("ggx.sample_visible_normal"), SampleVisibleNormal<Ggx>>(),
-    Make<KernelIndex("ggx.sample_visible_normal_bounded"), SampleVisibleNormalBounded<Ggx>>(),
-
-    Make<KernelIndex("beckmann.D"), D<Beckmann>>(),
-    Make<KernelIndex("beckmann.D_isotropic"), D<BeckmannIsotropic>>(),
-    Make<KernelIndex("beckmann.Lambda"), Lambda<Beckmann>>(),
-    Make<KernelIndex("beckmann.Lambda_isotropic"), Lambda<BeckmannIsotropic>>(),
-    Make<KernelIndex("beckmann.G1"), MaskingG1<Beckmann>>(),
-    Make<KernelIndex("beckmann.G1_isotropic"), MaskingG1<BeckmannIsotropic>>(),
-    Make<KernelIndex("beckmann.G1_rational"), MaskingG1Rational<Beckmann>>(),
-    Make<KernelIndex("beckmann.sample_normal"), SampleNormal<Beckmann>>(),
+    Make<KernelIndex("beckmann.G1_rational"), MaskingG1Rational>(),
     Make<KernelIndex("beckmann.sample_normal_widened"), SampleNormalWidened>(),
 
     Make<KernelIndex("phong.exponent"), PhongExponent>(),
-    Make<KernelIndex("phong.D"), D<Phong>>(),
-    Make<KernelIndex("phong.G1"), MaskingG1Rational<Phong>>(),
-    Make<KernelIndex("phong.sample_normal"), SampleNormal<Phong>>(),
 
     Make<KernelIndex("fresnel.dielectric"), Reflectance>(),
     Make<KernelIndex("fresnel.dielectric_transmittance"), Transmittance>(),
@@ -580,6 +621,17 @@ constexpr std::array kEntries = {
     Make<KernelIndex("refract"), RefractedDirection>(),
 };
 
+template <std::size_t... kPlace>
+constexpr void AddNormals(std::array<Batch, kNumKernels>& table, std::index_sequence<kPlace...>) {
+  const auto add = [&](auto place) {
+    constexpr std::size_t kThis = decltype(place)::value, kKernel = kNumComponentKernels + kThis;
+    if constexpr (kNormalRows[kNormalKernelPlaces[kThis].row].what != NormalQuantity::kOwn) {
+      table[kKernel] = Loop<kKernel, OfNormals<kThis>>;
+    }
+  };
+  (add(std::integral_constant<std::size_t, kPlace>()), ...);
+}
+
 template <class Distribution, std::size_t... kQuantity>
 constexpr void AddDielectrics(std::array<Batch, kNumKernels>& table, std::index_sequence<kQuantity...>) {
   ((table[DielectricKernel(Distribution::kNormals, kQuantity)] =
@@ -591,6 +643,7 @@ constexpr std::array<Batch, kNumKernels> Resolve() {
   std::array<Batch, kNumKernels> table{};
   for (const Entry& entry : kEntries) table[entry.kernel] = entry.batch;
   constexpr auto quantities = std::make_index_sequence<kNumDielectricQuantities>();
+  AddNormals(table, std::make_index_sequence<kNumNormalKernels>());
   AddDielectrics<Ggx>(table, quantities);
   AddDielectrics<Beckmann>(table, quantities);
   AddDielectrics<Phong>(table, quantities);

@@ -64,6 +64,9 @@ class Lanes {
         return name == "cos_i"      ? Dot(wi_, facing_)
                : name == "cos_o"    ? Dot(wo_, facing_)
                : name == "alpha_y"  ? alpha_y_
+               : name == "r_xy"     ? 0.6
+               : name == "mean_x"   ? 0.1
+               : name == "mean_y"   ? -0.05
                : name == "exponent" ? std::max(0.0, 2 / (alpha_x_ * alpha_x_) - 2)
                : name == "eta"      ? eta_
                : name == "x"        ? x_

@@ -98,37 +98,65 @@ void AppendDielectrics(std::vector<Row<T>>& rows, std::index_sequence<kQuantity.
    ...);
 }
 
+template <Normals kNormals>
+using NormalCallsOf = std::conditional_t<kNormals == Normals::kGgx, ggx,
+                                         std::conditional_t<kNormals == Normals::kBeckmann, beckmann, phong>>;
+
+// The typed function of a quantity of a distribution with parameters p.
+template <class T, std::size_t kPlace, class... P>
+void CallNormals(Arguments<T>& a, const P&... p) {
+  constexpr NormalRow row = kNormalRows[kNormalKernelPlaces[kPlace].row];
+  using Calls = NormalCallsOf<row.normals>;
+  if constexpr (row.what == NormalQuantity::kD) {
+    Calls::D(a.n, a.Direction(0), p..., a.Out(0), a.accuracy);
+  } else if constexpr (row.what == NormalQuantity::kLambda) {
+    Calls::Lambda(a.n, a.Direction(0), p..., a.Out(0), a.accuracy);
+  } else if constexpr (row.what == NormalQuantity::kG1) {
+    Calls::G1(a.n, a.Direction(0), a.Direction(3), p..., a.Out(0), a.accuracy);
+  } else if constexpr (row.what == NormalQuantity::kDVisible) {
+    Calls::DVisible(a.n, a.Direction(0), a.Direction(3), p..., a.Out(0), a.accuracy);
+  } else if constexpr (row.what == NormalQuantity::kSampleNormal) {
+    Calls::SampleNormal(a.n, a.Lanes(0), a.Lanes(1), p..., a.OutDirection(0), a.Out(3), a.accuracy);
+  } else if constexpr (row.what == NormalQuantity::kSampleVisible) {
+    Calls::SampleVisibleNormal(a.n, a.Direction(0), a.Lanes(3), a.Lanes(4), p..., a.OutDirection(0), a.Out(3),
+                               a.accuracy);
+  } else {
+    Calls::SampleVisibleNormalBounded(a.n, a.Direction(0), a.Lanes(3), a.Lanes(4), p..., a.OutDirection(0),
+                                      a.Out(3), a.accuracy);
+  }
+}
+
+template <class T, std::size_t kPlace, std::size_t... kParameter>
+void AppendNormals(std::vector<Row<T>>& rows, std::index_sequence<kParameter...>) {
+  constexpr NormalKernelPlace place = kNormalKernelPlaces[kPlace];
+  if constexpr (kNormalRows[place.row].what != NormalQuantity::kOwn) {
+    static constexpr int first =
+        static_cast<int>(Split(kNormalQuantities[kNormalRows[place.row].what].lanes).count);
+    rows.push_back({kNormalText[kPlace].id.view(), [](Arguments<T>& a) {
+                      CallNormals<T, kPlace>(a, a.Value(first + static_cast<int>(kParameter))...);
+                    }});
+  }
+}
+template <class T, std::size_t... kPlace>
+void AppendAllNormals(std::vector<Row<T>>& rows, std::index_sequence<kPlace...>) {
+  (AppendNormals<T, kPlace>(
+       rows,
+       std::make_index_sequence<
+           Split(kRoughnesses[static_cast<std::size_t>(kNormalKernelPlaces[kPlace].roughness)].parameters)
+               .count>()),
+   ...);
+}
+
 // Every typed function.
 template <class T>
 const std::vector<Row<T>>& Rows() {
   using A = Arguments<T>;
   // clang-format off
   static const std::vector<Row<T>> components = {
-      {"ggx.D", [](A& a) { ggx::D(a.n, a.Direction(0), a.Value(3), a.Value(4), a.Out(0), a.accuracy); }},
-      {"ggx.D_isotropic", [](A& a) { ggx::D(a.n, a.Direction(0), a.Value(3), a.Out(0), a.accuracy); }},
-      {"ggx.Lambda", [](A& a) { ggx::Lambda(a.n, a.Direction(0), a.Value(3), a.Value(4), a.Out(0), a.accuracy); }},
-      {"ggx.Lambda_isotropic", [](A& a) { ggx::Lambda(a.n, a.Direction(0), a.Value(3), a.Out(0), a.accuracy); }},
-      {"ggx.G1", [](A& a) { ggx::G1(a.n, a.Direction(0), a.Direction(3), a.Value(6), a.Value(7), a.Out(0), a.accuracy); }},
-      {"ggx.G1_isotropic", [](A& a) { ggx::G1(a.n, a.Direction(0), a.Direction(3), a.Value(6), a.Out(0), a.accuracy); }},
-      {"ggx.sample_normal", [](A& a) { ggx::SampleNormal(a.n, a.Lanes(0), a.Lanes(1), a.Value(2), a.Value(3), a.OutDirection(0), a.Out(3), a.accuracy); }},
-      {"ggx.D_visible", [](A& a) { ggx::DVisible(a.n, a.Direction(0), a.Direction(3), a.Value(6), a.Value(7), a.Out(0), a.accuracy); }},
-      {"ggx.sample_visible_normal", [](A& a) { ggx::SampleVisibleNormal(a.n, a.Direction(0), a.Lanes(3), a.Lanes(4), a.Value(5), a.Value(6), a.OutDirection(0), a.Out(3), a.accuracy); }},
-      {"ggx.sample_visible_normal_bounded", [](A& a) { ggx::SampleVisibleNormalBounded(a.n, a.Direction(0), a.Lanes(3), a.Lanes(4), a.Value(5), a.Value(6), a.OutDirection(0), a.Out(3), a.accuracy); }},
-
-      {"beckmann.D", [](A& a) { beckmann::D(a.n, a.Direction(0), a.Value(3), a.Value(4), a.Out(0), a.accuracy); }},
-      {"beckmann.D_isotropic", [](A& a) { beckmann::D(a.n, a.Direction(0), a.Value(3), a.Out(0), a.accuracy); }},
-      {"beckmann.Lambda", [](A& a) { beckmann::Lambda(a.n, a.Direction(0), a.Value(3), a.Value(4), a.Out(0), a.accuracy); }},
-      {"beckmann.Lambda_isotropic", [](A& a) { beckmann::Lambda(a.n, a.Direction(0), a.Value(3), a.Out(0), a.accuracy); }},
-      {"beckmann.G1", [](A& a) { beckmann::G1(a.n, a.Direction(0), a.Direction(3), a.Value(6), a.Value(7), a.Out(0), a.accuracy); }},
-      {"beckmann.G1_isotropic", [](A& a) { beckmann::G1(a.n, a.Direction(0), a.Direction(3), a.Value(6), a.Out(0), a.accuracy); }},
       {"beckmann.G1_rational", [](A& a) { beckmann::G1Rational(a.n, a.Direction(0), a.Direction(3), a.Value(6), a.Value(7), a.Out(0), a.accuracy); }},
-      {"beckmann.sample_normal", [](A& a) { beckmann::SampleNormal(a.n, a.Lanes(0), a.Lanes(1), a.Value(2), a.Value(3), a.OutDirection(0), a.Out(3), a.accuracy); }},
       {"beckmann.sample_normal_widened", [](A& a) { beckmann::SampleNormalWidened(a.n, a.Lanes(0), a.Lanes(1), a.Lanes(2), a.Value(3), a.Value(4), a.OutDirection(0), a.Out(3), a.accuracy); }},
 
       {"phong.exponent", [](A& a) { phong::Exponent(a.n, a.Lanes(0), a.Out(0), a.accuracy); }},
-      {"phong.D", [](A& a) { phong::D(a.n, a.Direction(0), a.Value(3), a.Out(0), a.accuracy); }},
-      {"phong.G1", [](A& a) { phong::G1(a.n, a.Direction(0), a.Direction(3), a.Value(6), a.Out(0), a.accuracy); }},
-      {"phong.sample_normal", [](A& a) { phong::SampleNormal(a.n, a.Lanes(0), a.Lanes(1), a.Value(2), a.OutDirection(0), a.Out(3), a.accuracy); }},
 
       {"fresnel.dielectric", [](A& a) { fresnel::Dielectric(a.n, a.Lanes(0), a.Value(1), a.Out(0), a.accuracy); }},
       {"fresnel.dielectric_transmittance", [](A& a) { fresnel::DielectricTransmittance(a.n, a.Lanes(0), a.Value(1), a.Out(0), a.accuracy); }},
@@ -148,6 +176,7 @@ const std::vector<Row<T>>& Rows() {
   static const std::vector<Row<T>> rows = [] {
     std::vector<Row<T>> all = components;
     constexpr auto quantities = std::make_index_sequence<kNumDielectricQuantities>();
+    AppendAllNormals(all, std::make_index_sequence<kNumNormalKernels>());
     AppendDielectrics<T, Normals::kGgx>(all, quantities);
     AppendDielectrics<T, Normals::kBeckmann>(all, quantities);
     AppendDielectrics<T, Normals::kPhong>(all, quantities);
@@ -211,6 +240,25 @@ template <class T>
 class TypedCalls : public ::testing::Test {};
 using Types = ::testing::Types<float, double>;
 TYPED_TEST_SUITE(TypedCalls, Types);
+
+// The moments of Q^-1 / 2 come back as Q's parameters.
+TEST(Material, SlopeMomentsBecomeRoughness) {
+  const double ax = 0.3, ay = 0.05, r = -0.8;
+  const SlopeRoughness rough(SlopeMoments{0.2, -1.5, ax * ax / 2, ay * ay / 2, r * ax * ay / 2});
+  ASSERT_TRUE(rough.ok()) << rough.error();
+  EXPECT_NEAR(rough.alpha_x(), ax, 1e-15);
+  EXPECT_NEAR(rough.alpha_y(), ay, 1e-15);
+  EXPECT_NEAR(rough.r_xy(), r, 1e-15);
+  EXPECT_EQ(rough.mean_x(), 0.2);
+  EXPECT_EQ(rough.mean_y(), -1.5);
+  EXPECT_EQ(SlopeRoughness(0.3, 0.3, 1, 0, 0).error(), "r_xy = 1 is outside [-0.9999, 0.9999]");
+  EXPECT_EQ(SlopeRoughness(0.3, 0.3, 0, 0, 17).error(), "mean_y = 17 is outside [-16, 16]");
+  const SlopeRoughness degenerate(SlopeMoments{0, 0, 0.1, 0.1, 0.1});
+  EXPECT_NE(degenerate.error().find("r_xy = "), std::string::npos);
+  EXPECT_NE(SlopeRoughness(SlopeMoments{0, 0, -0.1, 0.1, 0}).error().find("variance_x = -0.1"),
+            std::string::npos);
+  EXPECT_TRUE(std::isnan(degenerate.alpha_x()));
+}
 
 TYPED_TEST(TypedCalls, CoverTheKernelListButItsMathematics) {
   for (const Kernel& kernel : kKernels) {

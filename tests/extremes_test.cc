@@ -105,6 +105,7 @@ TEST(Extremes, EtaOne) { CheckRow("eta-one"); }
 TEST(Extremes, EtaExtreme) { CheckRow("eta-extreme"); }
 TEST(Extremes, TirEdge) { CheckRow("tir-edge"); }
 TEST(Extremes, UEdges) { CheckRow("u-edges"); }
+TEST(Extremes, OffCentre) { CheckRow("off-centre"); }
 TEST(Extremes, RationalOverOne) { CheckRow("rational-over-one"); }
 TEST(Extremes, WeightRatio) { CheckRow("weight-ratio"); }
 

@@ -32,6 +32,9 @@ enum Field : int {
   kAlpha,
   kAlphaX,
   kAlphaY,
+  kRxy,
+  kMeanX,
+  kMeanY,
   kExponent,
   kEta,
   kU1,
@@ -42,8 +45,9 @@ enum Field : int {
   kNumFields
 };
 constexpr std::string_view kFieldNames[] = {
-    "mx",    "my",    "mz",    "vx",      "vy",      "vz",       "wix", "wiy", "wiz", "wox", "woy", "woz",
-    "cos_i", "cos_o", "alpha", "alpha_x", "alpha_y", "exponent", "eta", "u1",  "u2",  "u3",  "x",   "a"};
+    "mx",     "my",     "mz",       "vx",    "vy",    "vz",    "wix",     "wiy",     "wiz",
+    "wox",    "woy",    "woz",      "cos_i", "cos_o", "alpha", "alpha_x", "alpha_y", "r_xy",
+    "mean_x", "mean_y", "exponent", "eta",   "u1",    "u2",    "u3",      "x",       "a"};
 static_assert(std::size(kFieldNames) == kNumFields && std::size(kInputs) == kNumFields,
               "one field per input");
 
@@ -157,6 +161,24 @@ double RoughnessY(const Shape& shape, const Scene& scene) {
 
 Vector FromSlopes(double x, double y) { return Normalized({x, y, 1}); }
 
+double Uncorrelated(const Scene& scene) { return std::sqrt((1 - scene[kRxy]) * (1 + scene[kRxy])); }
+
+// The normal whose slopes are x, y at unit roughness: Heitz 2014 Eqs. 88, 95.
+Vector Rough(const Shape& shape, const Scene& scene, double x, double y) {
+  if (!shape.has[kRxy]) return FromSlopes(RoughnessX(shape, scene) * x, RoughnessY(shape, scene) * y);
+  const double across = scene[kRxy] * x + Uncorrelated(scene) * y;
+  const double mean_x = shape.has[kMeanX] ? scene[kMeanX] : 0, mean_y = shape.has[kMeanX] ? scene[kMeanY] : 0;
+  return FromSlopes(scene[kAlphaX] * x - mean_x, scene[kAlphaY] * across - mean_y);
+}
+
+// The direction that x, y, z is at unit roughness, by the inverse transpose.
+Vector FromUnitView(const Shape& shape, const Scene& scene, const Vector& v) {
+  const double s = shape.has[kRxy] ? Uncorrelated(scene) : 1, r = shape.has[kRxy] ? scene[kRxy] : 0;
+  const double y = v.y / s / RoughnessY(shape, scene), x = (v.x - r * v.y / s) / RoughnessX(shape, scene);
+  const double z = shape.has[kMeanX] ? v.z + scene[kMeanX] * x + scene[kMeanY] * y : v.z;
+  return Normalized({x, y, z});
+}
+
 // The normal that the samplers make of u1 and u2.
 Vector SampledNormal(const Shape& shape, const Scene& scene) {
   const double u = std::min(scene[kU1], kLargestU), phi = kTwoPi * scene[kU2];
@@ -171,8 +193,7 @@ Vector SampledNormal(const Shape& shape, const Scene& scene) {
     case Distribution::kPhong:
       return FromCosine(std::exp(std::log(std::max(u, 1e-300)) / (scene[kExponent] + 2)), phi);
   }
-  return FromSlopes(RoughnessX(shape, scene) * radius * std::cos(phi),
-                    RoughnessY(shape, scene) * radius * std::sin(phi));
+  return Rough(shape, scene, radius * std::cos(phi), radius * std::sin(phi));
 }
 
 double Reflectance(double c, double eta) {
@@ -276,6 +297,22 @@ class SceneMaker {
     }
     scene_[kAlpha] = scene_[kAlphaX] = x;
     scene_[kAlphaY] = y;
+    const double edge = random_.Uniform();
+    scene_[kRxy] = Fit(kRxy,
+                       random_.Sign() * (edge < 0.1   ? 0
+                                         : edge < 0.2 ? 0.9999
+                                         : edge < 0.5 ? 1 - random_.LogUniform(1e-4, 1)
+                                                      : random_.Uniform()),
+                       values_);
+    for (const Field mean : {kMeanX, kMeanY}) {
+      const double edge_of_mean = random_.Uniform();
+      scene_[mean] = Fit(
+          mean,
+          random_.Sign() * (edge_of_mean < 0.1   ? 0
+                            : edge_of_mean < 0.2 ? 16
+                                                 : random_.LogUniform(edge_of_mean < 0.5 ? 1e-6 : 0.01, 16)),
+          values_);
+    }
     double exponent = random_.LogUniform(1e-3, 2e10);
     const double v = random_.Uniform();
     if (v < 0.3 && x < 1) exponent = 2 / (x * x) - 2;
@@ -385,13 +422,15 @@ class SceneMaker {
 
   Vector LobeNormal() {
     const double radius = SlopeRadius(), phi = Azimuth();
-    return FromSlopes(RoughnessX(shape_, scene_) * radius * std::cos(phi),
-                      RoughnessY(shape_, scene_) * radius * std::sin(phi));
+    return Rough(shape_, scene_, radius * std::cos(phi), radius * std::sin(phi));
   }
 
   // A direction at which the masking is neither 0 nor 1: a = 1/(alpha tan) of the order of 1.
   Vector MaskedDirection() {
     const double a = random_.LogUniform(1e-3, random_.Chance(0.7) ? 12 : 1e4), phi = Azimuth();
+    if (shape_.has[kRxy]) {
+      return FromUnitView(shape_, scene_, random_.Sign() * FromSlopes(std::cos(phi) / a, std::sin(phi) / a));
+    }
     const double alpha =
         std::hypot(RoughnessX(shape_, scene_) * std::cos(phi), RoughnessY(shape_, scene_) * std::sin(phi));
     const double tangent = 1 / (a * alpha);
@@ -493,6 +532,8 @@ constexpr double kGridCosines[] = {1,    0.999999, 0.9,  0.5, 0.1,  1e-2,  1e-3,
 constexpr double kGridAzimuths[] = {0, 0.4, 0.25 * kTwoPi, 2.5, 0.5 * kTwoPi, 5};
 constexpr double kGridRadii[] = {0, 1e-3, 0.1, 0.5, 1, 2, 4, 9, 30};
 constexpr double kGridAlphas[] = {1e-5, 1e-4, 1e-3, 0.01, 0.05, 0.1, 0.3, 0.5, 0.8, 1, 2, 10, 100};
+constexpr double kGridCorrelations[] = {0, 0.5, -0.9, 0.9999, -0.9999, 1e-4};
+constexpr double kGridMeans[] = {0, 0.1, -1, 3, -16};
 constexpr double kGridExponents[] = {0, 0.5, 1, 2, 10, 100, 1e3, 1e4, 1e6, 1e8, 1e10, 2e10};
 constexpr double kGridEtas[] = {1,    1.0003, 1.33, 1.5,      1.51,     2.42,     4,     1 / 1.0003, 1 / 1.33,
                                 0.66, 0.41,   0.25, 1 + 1e-7, 1 - 1e-7, 1 + 1e-5, 1.001, 0.999,      1.1};
@@ -526,8 +567,7 @@ Vector RoundedToFloats(Field first, Vector v) {
 
 Vector GridNormal(const Shape& shape, const Scene& scene, Digits& digits) {
   const double radius = digits.Take(kGridRadii), phi = digits.Take(kGridAzimuths);
-  return FromSlopes(RoughnessX(shape, scene) * radius * std::cos(phi),
-                    RoughnessY(shape, scene) * radius * std::sin(phi));
+  return Rough(shape, scene, radius * std::cos(phi), radius * std::sin(phi));
 }
 
 Vector GridDirection(Digits& digits) {
@@ -561,6 +601,9 @@ Scene GridScene(const Shape& shape, Digits& digits) {
   take(kAlpha, kGridAlphas);
   take(kAlphaX, kGridAlphas);
   take(kAlphaY, kGridAlphas);
+  take(kRxy, kGridCorrelations);
+  take(kMeanX, kGridMeans);
+  take(kMeanY, kGridMeans);
   take(kExponent, kGridExponents);
   take(kEta, kGridEtas);
   take(kU1, kGridU);
@@ -599,6 +642,7 @@ class ExtremeMaker {
     Interface();
     RandomNumbers();
     Rational();
+    OffCentre();
     return std::move(cases_);
   }
 
@@ -665,8 +709,7 @@ class ExtremeMaker {
   }
 
   Vector Normal(const Scene& scene, double radius, double phi) const {
-    return FromSlopes(RoughnessX(shape_, scene) * radius * std::cos(phi),
-                      RoughnessY(shape_, scene) * radius * std::sin(phi));
+    return Rough(shape_, scene, radius * std::cos(phi), radius * std::sin(phi));
   }
 
   void AddLobe(std::string_view row, std::string_view what, const Scene& scene, List radii) {
@@ -967,6 +1010,35 @@ class ExtremeMaker {
               scene[kU3] = u3;
               Add("pdf-zero", "a sample's own density", scene);
               Add("weight-ratio", "weight where value and density are tiny", scene);
+            }
+          }
+        }
+      }
+    }
+  }
+
+  // Mean slopes that push the side seen below the horizon, or just onto it.
+  void OffCentre() {
+    if (!shape_.has[kRxy]) return;
+    Scene scene = Base();
+    for (const double alpha : {1e-5, 0.01, 0.3, 10.0}) {
+      SetAlpha(scene, alpha, alpha * 0.5);
+      for (const double r : {0.0, 0.7, -0.9999}) {
+        scene[kRxy] = static_cast<float>(r);
+        for (const double mean : {0.1, 1.0, 16.0}) {
+          scene[kMeanX] = static_cast<float>(mean);
+          scene[kMeanY] = static_cast<float>(-0.5 * mean);
+          for (const double height : {0.3, 1e-3, 1e-6, 0.0, -1e-6, -1e-3, -0.3}) {
+            for (const double phi : {0.0, 1.0, 2.5, 4.0}) {
+              // Seen at that height over the mesosurface.
+              const Vector unit{std::cos(phi), std::sin(phi), height};
+              const Vector v = FromUnitView(shape_, scene, unit);
+              for (const double radius : {0.0, 0.5, 2.0}) {
+                Scene seen = scene;
+                Put(seen, kVx, Single(v));
+                Put(seen, kMx, Single(Normal(scene, radius, 1)));
+                Add("off-centre", "views about the horizon of the mesosurface", seen);
+              }
             }
           }
         }

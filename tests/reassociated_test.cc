@@ -40,22 +40,11 @@ namespace microlane {
 namespace HWY_NAMESPACE {
 namespace {
 
-constexpr std::string_view kGgxD = "ggx.D", kGgxLambda = "ggx.Lambda", kGgxG1 = "ggx.G1",
-                           kGgxSample = "ggx.sample_normal", kGgxDVisible = "ggx.D_visible",
-                           kGgxSampleVisible = "ggx.sample_visible_normal",
-                           kGgxSampleBounded = "ggx.sample_visible_normal_bounded", kBeckmannD = "beckmann.D",
-                           kBeckmannLambda = "beckmann.Lambda", kBeckmannG1 = "beckmann.G1",
-                           kBeckmannSample = "beckmann.sample_normal", kPhongG1 = "phong.G1",
-                           kPhongSample = "phong.sample_normal";
+template <class Dist, Normals kNormals, NormalQuantity::What kWhat,
+          RoughnessKind kRoughness = RoughnessKind::kAnisotropic>
+using NormalCase =
+    NormalQuantityKernel<Dist, NormalKernel(kNormals, kWhat, kRoughness) - kNumComponentKernels>;
 
-struct PhongDCase {
-  static constexpr std::string_view kId = "phong.D";
-  template <Accuracy A, class D>
-  static void Eval(D d, const Options<D>&, const Outputs<D>& out, Vec<D>, Vec<D>, Vec<D> mz,
-                   Vec<D> exponent) {
-    out.v0 = Phong::NormalDensity<A>(d, mz, exponent);
-  }
-};
 template <FresnelPart kPart>
 struct FresnelCase {
   static constexpr std::string_view kId = kPart == FresnelPart::kUnpolarised ? "fresnel.dielectric"
@@ -153,23 +142,28 @@ Cases MakeCases() {
 Cases CasesOnTarget() {
   constexpr Normals ggx = Normals::kGgx, beckmann = Normals::kBeckmann, phong = Normals::kPhong;
   return MakeCases<
-      DKernel<Ggx, kGgxD>, LambdaKernel<Ggx, kGgxLambda>, G1Kernel<Ggx, kGgxG1>,
-      SampleNormalKernel<Ggx, kGgxSample>, DVisibleKernel<Ggx, kGgxDVisible>,
-      SampleVisibleNormalKernel<Ggx, kGgxSampleVisible>,
-      SampleVisibleNormalKernel<Ggx, kGgxSampleBounded, true>, DKernel<Beckmann, kBeckmannD>,
-      LambdaKernel<Beckmann, kBeckmannLambda>, G1Kernel<Beckmann, kBeckmannG1>,
-      SampleNormalKernel<Beckmann, kBeckmannSample>, PhongDCase, G1Kernel<Phong, kPhongG1>,
-      SampleNormalKernel<Phong, kPhongSample>, FresnelCase<FresnelPart::kUnpolarised>,
-      FresnelCase<FresnelPart::kS>, FresnelCase<FresnelPart::kP>, FresnelCase<FresnelPart::kTransmittance>,
-      HalfReflectionCase, HalfRefractionCase, HalfJacobianCase, HalfJacobianCosCase, ReflectCase, RefractCase,
-      DielectricCase<Ggx, ggx, kEval>, DielectricCase<Ggx, ggx, kEvalReflection>,
-      DielectricCase<Ggx, ggx, kEvalTransmission>, DielectricCase<Ggx, ggx, kEvalSeparable>,
-      DielectricCase<Ggx, ggx, kPdf>, DielectricCase<Ggx, ggx, kPdfReflection>,
-      DielectricCase<Ggx, ggx, kPdfTransmission>, DielectricCase<Ggx, ggx, kSample>,
-      DielectricCase<Ggx, ggx, kSampleReflection>, DielectricCase<Ggx, ggx, kSampleTransmission>,
-      DielectricCase<Beckmann, beckmann, kEvalPdf>, DielectricCase<Beckmann, beckmann, kEvalReflection>,
-      DielectricCase<Beckmann, beckmann, kSample>, DielectricCase<Phong, phong, kEvalPdf>,
-      DielectricCase<Phong, phong, kEvalReflection>, DielectricCase<Phong, phong, kSample>>();
+      NormalCase<Ggx, ggx, NormalQuantity::kD>, NormalCase<Ggx, ggx, NormalQuantity::kLambda>,
+      NormalCase<Ggx, ggx, NormalQuantity::kG1>, NormalCase<Ggx, ggx, NormalQuantity::kSampleNormal>,
+      NormalCase<Ggx, ggx, NormalQuantity::kDVisible>, NormalCase<Ggx, ggx, NormalQuantity::kSampleVisible>,
+      NormalCase<Ggx, ggx, NormalQuantity::kSampleVisibleBounded>,
+      NormalCase<Beckmann, beckmann, NormalQuantity::kD>,
+      NormalCase<Beckmann, beckmann, NormalQuantity::kLambda>,
+      NormalCase<Beckmann, beckmann, NormalQuantity::kG1>,
+      NormalCase<Beckmann, beckmann, NormalQuantity::kSampleNormal>,
+      NormalCase<Phong, phong, NormalQuantity::kD, RoughnessKind::kExponent>,
+      NormalCase<Phong, phong, NormalQuantity::kG1, RoughnessKind::kExponent>,
+      NormalCase<Phong, phong, NormalQuantity::kSampleNormal, RoughnessKind::kExponent>,
+      FresnelCase<FresnelPart::kUnpolarised>, FresnelCase<FresnelPart::kS>, FresnelCase<FresnelPart::kP>,
+      FresnelCase<FresnelPart::kTransmittance>, HalfReflectionCase, HalfRefractionCase, HalfJacobianCase,
+      HalfJacobianCosCase, ReflectCase, RefractCase, DielectricCase<Ggx, ggx, kEval>,
+      DielectricCase<Ggx, ggx, kEvalReflection>, DielectricCase<Ggx, ggx, kEvalTransmission>,
+      DielectricCase<Ggx, ggx, kEvalSeparable>, DielectricCase<Ggx, ggx, kPdf>,
+      DielectricCase<Ggx, ggx, kPdfReflection>, DielectricCase<Ggx, ggx, kPdfTransmission>,
+      DielectricCase<Ggx, ggx, kSample>, DielectricCase<Ggx, ggx, kSampleReflection>,
+      DielectricCase<Ggx, ggx, kSampleTransmission>, DielectricCase<Beckmann, beckmann, kEvalPdf>,
+      DielectricCase<Beckmann, beckmann, kEvalReflection>, DielectricCase<Beckmann, beckmann, kSample>,
+      DielectricCase<Phong, phong, kEvalPdf>, DielectricCase<Phong, phong, kEvalReflection>,
+      DielectricCase<Phong, phong, kSample>>();
 }
 
 }  // namespace

@@ -54,6 +54,35 @@ constexpr ScalarBound kScalarBounds[] = {
     {"beckmann.G1_rational", 0.51, 5},
     {"beckmann.sample_normal", 0.51, 12},
     {"beckmann.sample_normal_widened", 0.51, 16},
+    {"ggx.D_rotated", 0.51, 10},
+    {"ggx.D_off_centre", 0.51, 10},
+    {"ggx.Lambda_rotated", 0.51, 10},
+    {"ggx.Lambda_off_centre", 0.51, 10},
+    {"ggx.G1_rotated", 0.51, 10},
+    {"ggx.G1_off_centre", 0.51, 10},
+    {"ggx.D_visible_rotated", 0.51, 16},
+    {"ggx.D_visible_off_centre", 0.51, 16},
+    {"ggx.sample_normal_rotated", 0.51, 512},
+    {"ggx.sample_normal_off_centre", 0.51, 512},
+    {"ggx.sample_visible_normal_rotated", 0.51, 64},
+    {"ggx.sample_visible_normal_off_centre", 0.51, 64},
+    {"beckmann.D_rotated", 0.51, 10},
+    {"beckmann.D_off_centre", 0.51, 10},
+    {"beckmann.Lambda_rotated", 0.51, 2400},
+    {"beckmann.Lambda_off_centre", 0.51, 2400},
+    {"beckmann.G1_rotated", 0.51, 10},
+    {"beckmann.G1_off_centre", 0.51, 10},
+    {"beckmann.D_visible_rotated", 0.51, 16},
+    {"beckmann.D_visible_off_centre", 0.51, 16},
+    {"beckmann.sample_normal_rotated", 0.51, 512},
+    {"beckmann.sample_normal_off_centre", 0.51, 512},
+    {"ggx.D_visible_isotropic", 0.51, 8},
+    {"ggx.sample_normal_isotropic", 0.51, 12},
+    {"ggx.sample_visible_normal_isotropic", 0.51, 16},
+    {"ggx.sample_visible_normal_bounded_isotropic", 0.51, 24},
+    {"beckmann.D_visible", 6, 20},
+    {"beckmann.D_visible_isotropic", 6, 20},
+    {"beckmann.sample_normal_isotropic", 0.51, 12},
     {"phong.exponent", 2.5, 2},
     {"phong.D", 3, 4},
     {"phong.G1", 0.51, 5},
@@ -80,8 +109,9 @@ constexpr ScalarBound kScalarDielectricBounds[kNumDielectricFamilies][4] = {
     {{"eval", 0.51, 16}, {"pdf", 0.51, 16}, {"eval_pdf", 0.51, 16}, {"sample", 2.5, 32768}}};
 
 constexpr ScalarBound FindBound(std::size_t kernel) {
-  if (kernel >= kNumComponentKernels) {
-    const std::size_t i = kernel - kNumComponentKernels;
+  constexpr std::size_t first_dielectric = kNumComponentKernels + kNumNormalKernels;
+  if (kernel >= first_dielectric) {
+    const std::size_t i = kernel - first_dielectric;
     const DielectricQuantity& quantity = kDielectricQuantities[i % kNumDielectricQuantities];
     return kScalarDielectricBounds[i / kNumDielectricQuantities][quantity.what];
   }
@@ -318,6 +348,8 @@ class Generator {
     if (name == "cos_o") return cos_o_;
     if (name == "alpha" || name == "alpha_x") return alpha_x_;
     if (name == "alpha_y") return alpha_y_;
+    if (name == "r_xy") return Chance(0.1) ? Sign() * 0.9999 : Sign() * Uniform() * 0.9999;
+    if (name == "mean_x" || name == "mean_y") return Chance(0.1) ? 0 : Sign() * LogUniform(1e-4, 16);
     if (name == "exponent") return exponent_;
     if (name == "eta") return eta_;
     if (name == "u1" || name == "u2" || name == "u3") return Random();
@@ -451,7 +483,7 @@ TEST_P(ScalarKernel, GivesFiniteNumbersForFiniteInputs) {
     for (std::size_t i = 0; i < names.count; ++i) {
       const Input& input = FindInput(names.name[i]);
       const double u = std::uniform_real_distribution<double>(0, 1)(random);
-      const bool bounded = input.low >= 0;
+      const bool bounded = input.low >= 0 || input.name == "r_xy" || input.name.substr(0, 4) == "mean";
       float value =
           static_cast<float>(bounded ? input.low + (input.high - input.low) * u * u * u
                                      : std::ldexp(2 * u - 1, static_cast<int>(random() % 278) - 149));

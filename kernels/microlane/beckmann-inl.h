@@ -17,7 +17,7 @@ namespace HWY_NAMESPACE {
 namespace {
 
 struct Beckmann {
-  static constexpr bool kHasExponent = true, kMaskingInDouble = true;
+  static constexpr bool kHasExponent = true, kMaskingInDouble = true, kDensityOfCosine = false;
 
   // C^2 of Stretch, kCareful with its rounding error, kept off the underflow where exp(LogDensity) is 0
   // already.
@@ -139,7 +139,7 @@ struct Beckmann {
     template <Accuracy A, class D, class... P>
     static HWY_INLINE void Run(D d, Vec<D>& lambda, Vec<D>& unused, Vec<D> vx, Vec<D> vy, Vec<D> vz, P... p) {
       Vec<D> factor, a2;
-      const Vec<D> z = hn::Abs(vz);
+      const Vec<D> z = hn::Abs(MesosurfaceCosine(d, vx, vy, vz, p...));
       LambdaFactors<A>(d, kIsFloat<D> ? 400 : 2000, factor, a2, vx, vy, z, p...);  // exp is 0 beyond
       const Vec<D> largest = hn::Set(d, std::numeric_limits<T<D>>::max());
       const Vec<D> over_z = hn::Min(hn::Div(factor, z), largest);

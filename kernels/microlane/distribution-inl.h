@@ -52,48 +52,83 @@ HWY_INLINE void CarefulLogDensity(D d, Vec<D>& high, Vec<D>& low, Vec<D> r, Vec<
 // factor pi D(m) (Walter 2007 Eqs. 25, 33; Heitz 2014 Eqs. 82, 85) of a normal as given, not normalised.
 template <class Dist, Accuracy A, class D, class... P>
 HWY_INLINE Vec<D> TimesPiNormalDensity(D d, Vec<D> factor, Vec<D> mx, Vec<D> my, Vec<D> mz, P... p) {
-  const Vec<D> zero = hn::Zero(d);
-  Vec<D> e, e_tail, w;
-  Dist::template Density<Care::kCareful>(d, e, e_tail, w, mx, my, mz, p...);
-  const Vec<D> n = hn::Mul(w, factor);
-  Vec<D> q;
-  if constexpr (A == Accuracy::kFast) {
-    const Vec<D> r = FastReciprocal(d, e);
-    q = hn::Mul(hn::Mul(n, r), r);
+  if constexpr (kShears<P...>) {
+    // A Gaussian of the slopes, or a power of 1 + tan^2.
+    Vec<D> q, unused;
+    InDouble2<ShearedDensityOp<!Dist::kHasExponent>>(d, q, unused, mx, my, mz, p...);
+    q = hn::Mul(q, factor);
     if constexpr (Dist::kHasExponent) {
-      q = ExpTimes<A>(d, Dist::LogDensity(d, mx, my, mz, p...), zero, q);
+      Vec<D> high, low;
+      InDouble2<ShearedLogDensityOp>(d, high, low, mx, my, mz, p...);
+      q = ExpTimes<A>(d, high, low, q);
     }
-  } else if constexpr (Dist::kHasExponent) {
-    const Vec<D> r = hn::Div(Const(d, 1), e);
-    Vec<D> high, low;
-    if constexpr (kIsFloat<D>) {
-      CarefulLogDensity<Dist, Care::kCareful>(d, high, low, r, e, e_tail, mx, my, mz, zero, zero, zero, p...);
-    } else {
-      SplitHigh(d, Dist::LogDensity(d, mx, my, mz, p...), high, low);
-    }
-    // 1/e^2 = r^2 (1 + 2 (1 - e r)) but for squares, and r^2 = r2 + r2_tail.
-    const Vec<D> rest = FusedMulSub(d, e, r, Const(d, 1));
-    Vec<D> r2, r2_tail;
-    TwoProduct(d, r, r, r2, r2_tail);
-    low = hn::MulAdd(hn::Mul(r2_tail, e), e, hn::NegMulAdd(Const(d, 2), rest, low));
-    q = ExpTimes<A>(d, high, low, hn::Mul(n, r2));
+    return ZeroIf(hn::Le(mz, hn::Zero(d)), q);
   } else {
-    // n / e^2 with the rounding errors of e^2 and of the quotient put back.
-    Vec<D> e2, e2_tail, qe, qe_tail;
-    TwoProduct(d, e, e, e2, e2_tail);
-    e2_tail = hn::MulAdd(hn::Add(e, e), e_tail, e2_tail);
-    const Vec<D> r = hn::Div(Const(d, 1), e2);
-    q = hn::Mul(n, r);
-    TwoProduct(d, q, e2, qe, qe_tail);
-    const Vec<D> rest = hn::Sub(hn::Sub(hn::Sub(n, qe), qe_tail), hn::Mul(q, e2_tail));
-    q = hn::MulAdd(rest, r, q);
+    const Vec<D> zero = hn::Zero(d);
+    Vec<D> e, e_tail, w;
+    Dist::template Density<Care::kCareful>(d, e, e_tail, w, mx, my, mz, p...);
+    const Vec<D> n = hn::Mul(w, factor);
+    Vec<D> q;
+    if constexpr (A == Accuracy::kFast) {
+      const Vec<D> r = FastReciprocal(d, e);
+      q = hn::Mul(hn::Mul(n, r), r);
+      if constexpr (Dist::kHasExponent) {
+        q = ExpTimes<A>(d, Dist::LogDensity(d, mx, my, mz, p...), zero, q);
+      }
+    } else if constexpr (Dist::kHasExponent) {
+      const Vec<D> r = hn::Div(Const(d, 1), e);
+      Vec<D> high, low;
+      if constexpr (kIsFloat<D>) {
+        CarefulLogDensity<Dist, Care::kCareful>(d, high, low, r, e, e_tail, mx, my, mz, zero, zero, zero,
+                                                p...);
+      } else {
+        SplitHigh(d, Dist::LogDensity(d, mx, my, mz, p...), high, low);
+      }
+      // 1/e^2 = r^2 (1 + 2 (1 - e r)) but for squares, and r^2 = r2 + r2_tail.
+      const Vec<D> rest = FusedMulSub(d, e, r, Const(d, 1));
+      Vec<D> r2, r2_tail;
+      TwoProduct(d, r, r, r2, r2_tail);
+      low = hn::MulAdd(hn::Mul(r2_tail, e), e, hn::NegMulAdd(Const(d, 2), rest, low));
+      q = ExpTimes<A>(d, high, low, hn::Mul(n, r2));
+    } else {
+      // n / e^2 with the rounding errors of e^2 and of the quotient put back.
+      Vec<D> e2, e2_tail, qe, qe_tail;
+      TwoProduct(d, e, e, e2, e2_tail);
+      e2_tail = hn::MulAdd(hn::Add(e, e), e_tail, e2_tail);
+      const Vec<D> r = hn::Div(Const(d, 1), e2);
+      q = hn::Mul(n, r);
+      TwoProduct(d, q, e2, qe, qe_tail);
+      const Vec<D> rest = hn::Sub(hn::Sub(hn::Sub(n, qe), qe_tail), hn::Mul(q, e2_tail));
+      q = hn::MulAdd(rest, r, q);
+    }
+    return ZeroIf(hn::Le(mz, zero), q);
   }
-  return ZeroIf(hn::Le(mz, zero), q);
 }
 
 template <class Dist, Accuracy A, class D, class... P>
 HWY_INLINE Vec<D> NormalDensity(D d, Vec<D> mx, Vec<D> my, Vec<D> mz, P... p) {
   return TimesPiNormalDensity<Dist, A>(d, Const(d, 1 / kPi), mx, my, mz, p...);
+}
+
+template <class Dist>
+struct LambdaOp {
+  template <Accuracy A, class D, class... P>
+  static HWY_INLINE void Run(D d, Vec<D>& lambda, Vec<D>& unused, Vec<D> vx, Vec<D> vy, Vec<D> vz, P... p) {
+    lambda = unused = Dist::template Lambda<A>(d, vx, vy, vz, p...);
+  }
+};
+
+// Smith's Lambda. That of sheared slopes in double lanes: the square of a rounded cosine of the mesosurface
+// is off by its rounding twice.
+template <class Dist, Accuracy A, class D, class... P>
+HWY_INLINE Vec<D> Lambda(D d, Vec<D> vx, Vec<D> vy, Vec<D> vz, P... p) {
+  Vec<D> lambda, unused;
+  if constexpr (kShears<P...>) {
+    Precisely<LambdaOp<Dist>, A>(d, lambda, unused, vx, vy, vz, p...);
+  } else {
+    LambdaOp<Dist>::template Run<A>(d, lambda, unused, vx, vy, vz, p...);
+  }
+  return lambda;
 }
 
 struct DotOp {
@@ -108,7 +143,7 @@ template <class Dist>
 struct G1OfViewOp {
   template <Accuracy A, class D, class... P>
   static HWY_INLINE void Run(D d, Vec<D>& g1, Vec<D>& unused, Vec<D> vx, Vec<D> vy, Vec<D> vz, P... p) {
-    const Vec<D> z = hn::Abs(vz);
+    const Vec<D> z = hn::Abs(MesosurfaceCosine(d, vx, vy, vz, p...));
     g1 = unused =
         Div<A>(d, hn::Add(z, z), hn::Add(z, Dist::template Masking<Care::kCareful, A>(d, vx, vy, z, p...)));
   }
@@ -125,6 +160,7 @@ HWY_INLINE Vec<D> G1(D d, Vec<D> vx, Vec<D> vy, Vec<D> vz, Vec<D> mx, Vec<D> my,
     G1OfViewOp<Dist>::template Run<A>(d, g1, unused, vx, vy, vz, p...);
   }
   Precisely<DotOp, Accuracy::kStandard>(d, dot, unused, vx, vy, vz, mx, my, mz);
+  vz = MesosurfaceCosine(d, vx, vy, vz, p...);
   const Vec<D> zero = hn::Zero(d);
   return ZeroIf(hn::Or(hn::Le(FlipSign(d, dot, vz), zero), hn::Eq(vz, zero)), g1);
 }
@@ -149,6 +185,7 @@ struct VisibilityOfDotOp {
   template <Accuracy A, class D, class... P>
   static HWY_INLINE void Run(D d, Vec<D>& visibility, Vec<D>& unused, Vec<D> dot, Vec<D> vx, Vec<D> vy,
                              Vec<D> vz, P... p) {
+    vz = MesosurfaceCosine(d, vx, vy, vz, p...);
     const Vec<D> z = hn::Abs(vz);
     const Vec<D> facing = hn::IfThenElse(hn::Lt(vz, hn::Zero(d)), hn::Neg(dot), dot);
     visibility = unused = Div<A>(d, hn::Mul(facing, Const(d, 2 / kPi)),
@@ -204,6 +241,89 @@ HWY_INLINE void NormalFromSlopes(D d, Vec<D>& mx, Vec<D>& my, Vec<D>& mz, Vec<D>
   mx = hn::Mul(x, inverse);
   my = hn::Mul(y, inverse);
   mz = hn::Mul(z, inverse);
+}
+
+// Normals of unit roughness turned into those of p, and their density: slopes go by (alpha_x x, alpha_y (r x
+// + sqrt(1
+// - r^2) y)), less the mean slope, and solid angles by |M|^3 / (alpha_x alpha_y sqrt(1 - r^2)) of the normal
+// M that comes out.
+template <class D>
+HWY_INLINE void ShearNormal(D d, Vec<D>& mx, Vec<D>& my, Vec<D>& mz, Vec<D>& pdf, Vec<D> alpha_x,
+                            Vec<D> alpha_y, Vec<D> r_xy, Vec<D> mean_x, Vec<D> mean_y) {
+  const Vec<D> s = Uncorrelated(d, r_xy);
+  const Vec<D> x = hn::NegMulAdd(mean_x, mz, hn::Mul(alpha_x, mx));
+  const Vec<D> y = hn::NegMulAdd(mean_y, mz, hn::Mul(alpha_y, hn::MulAdd(r_xy, mx, hn::Mul(s, my))));
+  const Vec<D> length2 = Dot(x, y, mz, x, y, mz), length = hn::Sqrt(length2);
+  const Vec<D> area = hn::Mul(hn::Mul(alpha_x, alpha_y), s);
+  const Vec<D> both = hn::Div(Const(d, 1), hn::Mul(length, area)), inverse = hn::Mul(both, area);
+  pdf = hn::Mul(hn::Mul(hn::Mul(pdf, length2), both), length2);
+  mx = hn::Mul(x, inverse);
+  my = hn::Mul(y, inverse);
+  mz = hn::Mul(mz, inverse);
+}
+template <class D>
+HWY_INLINE void ShearNormal(D d, Vec<D>& mx, Vec<D>& my, Vec<D>& mz, Vec<D>& pdf, Vec<D> alpha_x,
+                            Vec<D> alpha_y, Vec<D> r_xy) {
+  ShearNormal(d, mx, my, mz, pdf, alpha_x, alpha_y, r_xy, hn::Zero(d), hn::Zero(d));
+}
+
+// A view turned into that of the surface of unit roughness.
+template <class D, class... Mean>
+HWY_INLINE void StretchView(D d, Vec<D>& vx, Vec<D>& vy, Vec<D>& vz, Vec<D> alpha_x, Vec<D> alpha_y,
+                            Vec<D> r_xy, Mean... mean) {
+  vz = MesosurfaceCosine(d, vx, vy, vz, alpha_x, alpha_y, r_xy, mean...);
+  const Vec<D> y = hn::Mul(alpha_y, vy);
+  vx = hn::MulAdd(r_xy, y, hn::Mul(alpha_x, vx));
+  vy = hn::Mul(Uncorrelated(d, r_xy), y);
+}
+
+template <class Dist>
+struct ShearedSampleOp {
+  template <class DD, class... P>
+  static HWY_INLINE void Run(DD dd, Vec<DD>& mx, Vec<DD>& my, Vec<DD>& mz, Vec<DD>& pdf, Vec<DD>& unused0,
+                             Vec<DD>& unused1, Vec<DD> u1, Vec<DD> u2, P... p) {
+    Dist::template SampleNormal<Accuracy::kStandard>(dd, mx, my, mz, pdf, u1, u2, Const(dd, 1));
+    ShearNormal(dd, mx, my, mz, pdf, p...);
+    unused0 = unused1 = pdf;
+  }
+};
+template <class Dist>
+struct ShearedSampleVisibleOp {
+  template <class DD, class... P>
+  static HWY_INLINE void Run(DD dd, Vec<DD>& mx, Vec<DD>& my, Vec<DD>& mz, Vec<DD>& pdf, Vec<DD>& unused0,
+                             Vec<DD>& unused1, Vec<DD> vx, Vec<DD> vy, Vec<DD> vz, Vec<DD> u1, Vec<DD> u2,
+                             P... p) {
+    StretchView(dd, vx, vy, vz, p...);
+    Dist::template SampleVisibleNormal<false, Accuracy::kStandard>(dd, mx, my, mz, pdf, vx, vy, vz, u1, u2,
+                                                                   Const(dd, 1));
+    ShearNormal(dd, mx, my, mz, pdf, p...);
+    unused0 = unused1 = pdf;
+  }
+};
+
+// Normals m with pdf = D cos. Sheared ones in double lanes in every accuracy: mean slopes magnify roundings.
+template <class Dist, Accuracy A, class D, class... P>
+HWY_INLINE void SampleNormal(D d, Vec<D>& mx, Vec<D>& my, Vec<D>& mz, Vec<D>& pdf, Vec<D> u1, Vec<D> u2,
+                             P... p) {
+  if constexpr (kShears<P...>) {
+    Vec<D> unused0, unused1;
+    InDouble6<ShearedSampleOp<Dist>>(d, mx, my, mz, pdf, unused0, unused1, u1, u2, p...);
+  } else {
+    Dist::template SampleNormal<A>(d, mx, my, mz, pdf, u1, u2, p...);
+  }
+}
+
+// Normals m with pdf = D_v(m), or of the smaller cap for reflection.
+template <class Dist, bool kBounded, Accuracy A, class D, class... P>
+HWY_INLINE void SampleVisibleNormal(D d, Vec<D>& mx, Vec<D>& my, Vec<D>& mz, Vec<D>& pdf, Vec<D> vx,
+                                    Vec<D> vy, Vec<D> vz, Vec<D> u1, Vec<D> u2, P... p) {
+  if constexpr (kShears<P...>) {
+    static_assert(!kBounded, "the smaller cap is of stretched surfaces");
+    Vec<D> unused0, unused1;
+    InDouble6<ShearedSampleVisibleOp<Dist>>(d, mx, my, mz, pdf, unused0, unused1, vx, vy, vz, u1, u2, p...);
+  } else {
+    Dist::template SampleVisibleNormal<kBounded, A>(d, mx, my, mz, pdf, vx, vy, vz, u1, u2, p...);
+  }
 }
 
 // u below 1, for the total functions of the samplers; NaN passes.

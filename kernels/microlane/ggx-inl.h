@@ -15,7 +15,7 @@ namespace HWY_NAMESPACE {
 namespace {
 
 struct Ggx {
-  static constexpr bool kHasExponent = false, kMaskingInDouble = false;
+  static constexpr bool kHasExponent = false, kMaskingInDouble = false, kDensityOfCosine = false;
 
   // A^2 + B^2 + C^2 of Stretch as an unevaluated sum.
   template <Care kCare, class D, class... P>
@@ -58,7 +58,7 @@ struct Ggx {
   // scaled so that a subnormal cosine keeps its bits.
   template <Accuracy A, class D, class... P>
   static HWY_INLINE Vec<D> Lambda(D d, Vec<D> vx, Vec<D> vy, Vec<D> vz, P... p) {
-    const Vec<D> z = hn::Abs(vz), scale = Const(d, 0x1p60);
+    const Vec<D> z = hn::Abs(MesosurfaceCosine(d, vx, vy, vz, p...)), scale = Const(d, 0x1p60);
     const Vec<D> s2 = ProjectedRoughness2<Care::kCareful>(d, vx, vy, p...);
     const Vec<D> root = Sqrt<A>(d, hn::MulAdd(z, z, s2));
     const Vec<D> half = Const(d, 0.5);

@@ -77,6 +77,9 @@ inline constexpr Input kInputs[] = {
     {"alpha", 1e-5, 1e2, "roughness"},
     {"alpha_x", 1e-5, 1e2, "roughness along x"},
     {"alpha_y", 1e-5, 1e2, "roughness along y"},
+    {"r_xy", -0.9999, 0.9999, "correlation of the slopes along x and y"},
+    {"mean_x", -16, 16, "mean slope along x"},
+    {"mean_y", -16, 16, "mean slope along y"},
     {"exponent", 0, 2e10, "Phong exponent alpha_p"},
     {"eta", 0.25, 4, "index of the transmitted over the incident side"},
     {"u1", 0, 1, "uniform random number in [0, 1)"},
@@ -112,29 +115,6 @@ inline constexpr Output kOutputs[] = {
     {"y", Metric::kUlp, "1"},
 };
 
-inline constexpr std::string_view kStretch =
-    "Heitz 2014 Eq. 85/82: tan^2 = (x^2/alpha_x^2 + y^2/alpha_y^2)/z^2 of the direction as given; 0 where mz <= 0.";
-inline constexpr std::string_view kStretchedExponent =
-    "Heitz 2014 Eq. 82: tan^2 = (x^2/alpha_x^2 + y^2/alpha_y^2)/z^2 of the direction as given; 0 where mz <= 0. Double "
-    "lanes round an exponent of up to 745 once.";
-inline constexpr std::string_view kLambdaNote =
-    "a = |vz| / sqrt((alpha_x vx)^2 + (alpha_y vy)^2), the same on both sides of the surface; 0 at a = inf; "
-    "the largest finite number where the exact value exceeds it (vz = 0).";
-inline constexpr std::string_view kLambdaExponentNote =
-    "a = |vz| / sqrt((alpha_x vx)^2 + (alpha_y vy)^2), the same on both sides of the surface; 0 at a = inf; "
-    "the largest finite number where the exact value exceeds it (vz = 0). Double lanes round an exponent of up to 745 "
-    "once.";
-inline constexpr std::string_view kG1Note = "chi+((v.m)/(v.n)) / (1 + Lambda(v)); 0 where (v.m) vz <= 0.";
-inline constexpr std::string_view kDVisibleNote =
-    "D_v(m) = G1(v,m) |v.m| D(m) / |v.n| = 2 (v.m) D(m) / (|vz| + sqrt(vz^2 + (alpha_x vx)^2 + (alpha_y vy)^2)); v of "
-    "either side, -v in place of v below; vz = 0 counts as above. 0 where v.m and vz differ in sign, and where mz <= 0.";
-inline constexpr std::string_view kSampleVisibleNote =
-    "Spherical caps: s = normalize(alpha_x vx, alpha_y vy, vz), c of azimuth 2 pi u2 and c.z = (1 - u1)(1 + s.z) - s.z, "
-    "h = c + s, m = normalize(alpha_x hx, alpha_y hy, hz); pdf = D_v(m). Below the surface -v in place of v, so that mz > "
-    "0 on either side; vz = 0 counts as above. 0 where v = 0.";
-inline constexpr std::string_view kSampleBoundedNote =
-    "As ggx.sample_visible_normal with c.z = (1 - u1)(1 + k s.z) - k s.z, k = (1 - a^2) t^2/(t^2 + a^2 vz^2), a = min(alpha_x, "
-    "alpha_y, 1), t = 1 + sqrt(vx^2 + vy^2); pdf of m: D_v(m) (1 + s.z)/(1 + k s.z).";
 inline constexpr std::string_view kFresnelNote =
     "|cos_i| is used; 1 under total internal reflection; 0 at eta = 1.";
 inline constexpr std::string_view kEvalNote =
@@ -160,32 +140,6 @@ inline constexpr Kernel kComponentKernels[] = {
     {"math.sincos_2pi", "u1", "sin cos", "sin(2 pi u), cos(2 pi u), used by Walter 2007 Eq. 29", "", false, {1, 4, 256, 8, 2}},
     {"math.erfcx_defect", "a", "y", "1 - sqrt(pi) a exp(a^2) erfc(a): Heitz 2014 Eq. 69 is Lambda = y exp(-a^2) / (2 sqrt(pi) a)", "", false, {1, 4, 1600, 8, 13}},
 
-    {"ggx.D", "mx my mz | alpha_x alpha_y", "D", "Heitz 2014 Eq. 85; Walter 2007 Eq. 33", kStretch, false, {1, 4, 2400, 8, 4}},
-    {"ggx.D_isotropic", "mx my mz | alpha", "D", "Walter 2007 Eq. 33", kStretch, false, {1, 4, 2400, 8, 3}},
-    {"ggx.Lambda", "vx vy vz | alpha_x alpha_y", "Lambda", "Heitz 2014 Eq. 86", kLambdaNote, false, {1, 4, 1300, 8, 5}},
-    {"ggx.Lambda_isotropic", "vx vy vz | alpha", "Lambda", "Heitz 2014 Eq. 72", kLambdaNote, false, {1, 4, 1300, 8, 5}},
-    {"ggx.G1", "vx vy vz mx my mz | alpha_x alpha_y", "G1", "Walter 2007 Eq. 34, stretched", kG1Note, false, {1, 4, 2048, 8, 3}},
-    {"ggx.G1_isotropic", "vx vy vz mx my mz | alpha", "G1", "Walter 2007 Eq. 34", kG1Note, false, {1, 4, 2048, 8, 3}},
-    {"ggx.sample_normal", "u1 u2 | alpha_x alpha_y", "mx my mz pdf", "Walter 2007 Eqs. 24, 35, 36, stretched", "m = normalize(alpha_x r cos(2 pi u2), alpha_y r sin(2 pi u2), 1), r = sqrt(u1/(1 - u1)); pdf = D cos.", false, {1, 16, 2800, 24, 15}},
-    {"ggx.D_visible", "vx vy vz mx my mz | alpha_x alpha_y", "D", "Heitz 2014 Eq. 16", kDVisibleNote, false, {1, 4, 4000, 8, 8}},
-    {"ggx.sample_visible_normal", "vx vy vz u1 u2 | alpha_x alpha_y", "mx my mz pdf", "Dupuy and Benyoub 2023; Heitz 2014 Eq. 16", kSampleVisibleNote, false, {1, 16, 2400, 24, 16}},
-    {"ggx.sample_visible_normal_bounded", "vx vy vz u1 u2 | alpha_x alpha_y", "mx my mz pdf", "Eto and Tokuyoshi 2023; Heitz 2014 Eq. 16", kSampleBoundedNote, false, {1, 16, 2800, 24, 16}},
-
-    {"beckmann.D", "mx my mz | alpha_x alpha_y", "D", "Heitz 2014 Eq. 82; Walter 2007 Eq. 25", kStretchedExponent, false, {1, 4, 2800, 8, 3000}},
-    {"beckmann.D_isotropic", "mx my mz | alpha", "D", "Walter 2007 Eq. 25", kStretchedExponent, false, {1, 4, 2800, 8, 3000}},
-    {"beckmann.Lambda", "vx vy vz | alpha_x alpha_y", "Lambda", "Heitz 2014 Eq. 83", kLambdaExponentNote, false, {1, 4, 1700, 8, 2200}},
-    {"beckmann.Lambda_isotropic", "vx vy vz | alpha", "Lambda", "Heitz 2014 Eq. 69", kLambdaExponentNote, false, {1, 4, 1700, 8, 2200}},
-    {"beckmann.G1", "vx vy vz mx my mz | alpha_x alpha_y", "G1", "Walter 2007 Eq. 26, stretched", kG1Note, false, {1, 4, 2500, 8, 14}},
-    {"beckmann.G1_isotropic", "vx vy vz mx my mz | alpha", "G1", "Walter 2007 Eq. 26", kG1Note, false, {1, 4, 2500, 8, 14}},
-    {"beckmann.G1_rational", "vx vy vz mx my mz | alpha_x alpha_y", "G1", "Walter 2007 Eq. 27, clamped at 1", "The error bound is against Eq. 27; Eq. 27 itself is within 0.313% of Eq. 26.", false, {1, 4, 2300, 8, 6}},
-    {"beckmann.sample_normal", "u1 u2 | alpha_x alpha_y", "mx my mz pdf", "Walter 2007 Eqs. 24, 28, 29, stretched", "m = normalize(alpha_x r cos(2 pi u2), alpha_y r sin(2 pi u2), 1), r = sqrt(-log(1 - u1)); pdf = D cos.", false, {1, 16, 2800, 24, 17}},
-    {"beckmann.sample_normal_widened", "u1 u2 cos_i | alpha_x alpha_y", "mx my mz pdf", "Walter 2007 section 5.3", "beckmann.sample_normal with both alphas times 1.2 - 0.2 sqrt(|cos_i|).", false, {1, 16, 2800, 24, 17}},
-
-    {"phong.exponent", "alpha", "exponent", "Walter 2007, after Eq. 30: 2/alpha^2 - 2", "0 for alpha >= 1.", false, {1, 4, 1200, 8, 1.5}},
-    {"phong.D", "mx my mz | exponent", "D", "Walter 2007 Eq. 30", "(exponent + 2)/(2 pi) mz^exponent of mz as given; 0 where mz <= 0. Double lanes round an exponent of up to 745 once.", false, {1, 4, 128, 8, 2000}},
-    {"phong.G1", "vx vy vz mx my mz | exponent", "G1", "Walter 2007 Eq. 27 with a = sqrt(0.5 exponent + 1)/tan(theta_v), clamped at 1", kG1Note, false, {1, 4, 2900, 8, 6}},
-    {"phong.sample_normal", "u1 u2 | exponent", "mx my mz pdf", "Walter 2007 Eqs. 24, 31, 32", "cos(theta_m) = u1^(1/(exponent + 2)); pdf = D cos. Double lanes round the logarithm of the density once.", false, {1, 16, 1200, 24, 128}},
-
     {"fresnel.dielectric", "cos_i | eta", "F", "Walter 2007 Eq. 22", kFresnelNote, false, {1, 4, 2900, 8, 13}},
     {"fresnel.dielectric_transmittance", "cos_i | eta", "T", "1 - F, Walter 2007 Eq. 22", "|cos_i| is used; 0 under total internal reflection; 1 at eta = 1.", false, {1, 4, 2100, 8, 8}},
     {"fresnel.dielectric_s", "cos_i | eta", "F", "Walter 2007 Eq. 22, first factor: ((g - c)/(g + c))^2", kFresnelNote, false, {1, 4, 3000, 8, 10}},
@@ -200,6 +154,120 @@ inline constexpr Kernel kComponentKernels[] = {
 
     {"reflect", "wix wiy wiz mx my mz", "wox woy woz", "Walter 2007 Eq. 39, as 2 (i.m) m - i", "", false, {1, 4, 3, 8, 2.5}},
     {"refract", "wix wiy wiz mx my mz | eta", "wox woy woz", "Walter 2007 Eq. 40", "sign(i.n) is sign(wiz), sign(0) = 1; 0 under total internal reflection. Double lanes do not make up for the cancellation of g^2 at the critical angle.", false, {1, 4, 1100, 8, 0x1p17}},
+};
+
+// Distributions of normals, by their places in kNormalFamilies and kDielectricFamilies.
+enum class Normals { kGgx, kBeckmann, kPhong };
+
+// Parameters of a distribution, by their places in kRoughnesses. All but the exponent are linear maps of the slopes of
+// one distribution of unit roughness (Heitz 2014 section 5).
+enum class RoughnessKind { kAnisotropic, kIsotropic, kRotated, kOffCentre, kExponent };
+
+struct RoughnessRow {
+  std::string_view suffix;  // of the ids
+  std::string_view parameters;
+};
+
+inline constexpr RoughnessRow kRoughnesses[] = {
+    {"", "alpha_x alpha_y"},
+    {"_isotropic", "alpha"},
+    {"_rotated", "alpha_x alpha_y r_xy"},
+    {"_off_centre", "alpha_x alpha_y r_xy mean_x mean_y"},
+    {"", "exponent"},
+};
+
+// Of the notes of the rows below, for the kinds that shear (Heitz 2014 Eqs. 88-97): the slopes (x, y) become
+// (x/alpha_x, (y/alpha_y - r_xy x/alpha_x) / sqrt(1 - r_xy^2)), where off-centre the mean slope comes off first, normals
+// by (x + mean_x z, y + mean_y z, z); and directions go by the inverse transpose, so that in place of vz and of the side of
+// the surface stand those of the mesosurface, vz - mean_x vx - mean_y vy.
+// Sums that cancel are formed in double lanes, so that double lanes themselves lose what near correlation (1/sqrt(1 - r^2))
+// and a small alpha beside a large mean magnify; high, standard and fast do not.
+// What every distribution may give, and what one of them alone gives (kOwn).
+struct NormalQuantity {
+  enum What { kD, kLambda, kG1, kDVisible, kSampleNormal, kSampleVisible, kSampleVisibleBounded, kOwn };
+  std::string_view lanes, outputs;
+};
+
+// By NormalQuantity::What.
+inline constexpr NormalQuantity kNormalQuantities[] = {
+    {"mx my mz", "D"},
+    {"vx vy vz", "Lambda"},
+    {"vx vy vz mx my mz", "G1"},
+    {"vx vy vz mx my mz", "D"},
+    {"u1 u2", "mx my mz pdf"},
+    {"vx vy vz u1 u2", "mx my mz pdf"},
+    {"vx vy vz u1 u2", "mx my mz pdf"},
+};
+
+inline constexpr std::string_view kStretch =
+    "Heitz 2014 Eq. 85/82: tan^2 = (x^2/alpha_x^2 + y^2/alpha_y^2)/z^2 of the direction as given; 0 where mz <= 0.";
+inline constexpr std::string_view kStretchedExponent =
+    "Heitz 2014 Eq. 82: tan^2 = (x^2/alpha_x^2 + y^2/alpha_y^2)/z^2 of the direction as given; 0 where mz <= 0. Double "
+    "lanes round an exponent of up to 745 once.";
+inline constexpr std::string_view kLambdaNote =
+    "a = |vz| / sqrt((alpha_x vx)^2 + (alpha_y vy)^2), the same on both sides of the surface; 0 at a = inf; "
+    "the largest finite number where the exact value exceeds it (vz = 0).";
+inline constexpr std::string_view kLambdaExponentNote =
+    "a = |vz| / sqrt((alpha_x vx)^2 + (alpha_y vy)^2), the same on both sides of the surface; 0 at a = inf; "
+    "the largest finite number where the exact value exceeds it (vz = 0). Double lanes round an exponent of up to 745 "
+    "once.";
+inline constexpr std::string_view kG1Note = "chi+((v.m)/(v.n)) / (1 + Lambda(v)); 0 where (v.m) vz <= 0.";
+inline constexpr std::string_view kDVisibleNote =
+    "D_v(m) = G1(v,m) |v.m| D(m) / |v.n| = 2 (v.m) D(m) / (|vz| + sqrt(vz^2 + (alpha_x vx)^2 + (alpha_y vy)^2)); v of "
+    "either side, -v in place of v below; vz = 0 counts as above. 0 where v.m and vz differ in sign, and where mz <= 0.";
+inline constexpr std::string_view kDVisibleBeckmannNote =
+    "D_v(m) = G1(v,m) |v.m| D(m) / |v.n|; v of either side, -v in place of v below; vz = 0 counts as above. 0 where v.m and vz "
+    "differ in sign, and where mz <= 0. Double lanes round exponents of up to 745 once.";
+inline constexpr std::string_view kSampleVisibleNote =
+    "Spherical caps: s = normalize(alpha_x vx, alpha_y vy, vz), c of azimuth 2 pi u2 and c.z = (1 - u1)(1 + s.z) - s.z, "
+    "h = c + s, m = normalize(alpha_x hx, alpha_y hy, hz); pdf = D_v(m). Below the surface -v in place of v, so that mz > "
+    "0 on either side; vz = 0 counts as above. 0 where v = 0.";
+inline constexpr std::string_view kSampleBoundedNote =
+    "As ggx.sample_visible_normal with c.z = (1 - u1)(1 + k s.z) - k s.z, k = (1 - a^2) t^2/(t^2 + a^2 vz^2), a = min(alpha_x, "
+    "alpha_y, 1), t = 1 + sqrt(vx^2 + vy^2); pdf of m: D_v(m) (1 + s.z)/(1 + k s.z).";
+inline constexpr std::string_view kSampleGgxNote = "m = normalize(alpha_x r cos(2 pi u2), alpha_y r sin(2 pi u2), 1), r = sqrt(u1/(1 - u1)); pdf = D cos.";
+inline constexpr std::string_view kSampleBeckmannNote = "m = normalize(alpha_x r cos(2 pi u2), alpha_y r sin(2 pi u2), 1), r = sqrt(-log(1 - u1)); pdf = D cos.";
+inline constexpr std::string_view kPhongNote =
+    "(exponent + 2)/(2 pi) mz^exponent of mz as given; 0 where mz <= 0. Double lanes round an exponent of up to 745 once.";
+
+inline constexpr std::size_t kNumRoughnesses = std::size(kRoughnesses);
+
+// One quantity of one distribution, with bounds for each kind of roughness that it takes; those of the others are 0.
+struct NormalRow {
+  Normals normals;
+  std::string_view name;
+  NormalQuantity::What what;
+  std::string_view source, note;
+  Bounds bounds[kNumRoughnesses];
+  std::string_view own_inputs = "", own_outputs = "";  // of kOwn, whose bounds stand first
+
+  constexpr bool Takes(std::size_t roughness) const { return bounds[roughness].high > 0; }
+};
+
+inline constexpr std::string_view kNormalFamilies[] = {"ggx", "beckmann", "phong"};
+
+// Columns of bounds: those of kRoughnesses.
+inline constexpr NormalRow kNormalRows[] = {
+    {Normals::kGgx, "D", NormalQuantity::kD, "Heitz 2014 Eq. 85; Walter 2007 Eq. 33", kStretch, {{1, 4, 2400, 8, 4}, {1, 4, 2400, 8, 3}, {1, 4, 4, 8, 600}, {1, 4, 4, 8, 600}}},
+    {Normals::kGgx, "Lambda", NormalQuantity::kLambda, "Heitz 2014 Eqs. 72, 86", kLambdaNote, {{1, 4, 1300, 8, 5}, {1, 4, 1300, 8, 5}, {1, 1, 1300, 1, 64}, {1, 1, 1300, 1, 64}}},
+    {Normals::kGgx, "G1", NormalQuantity::kG1, "Walter 2007 Eq. 34, stretched", kG1Note, {{1, 4, 2048, 8, 3}, {1, 4, 2048, 8, 3}, {1, 4, 2048, 8, 40}, {1, 4, 2048, 8, 40}}},
+    {Normals::kGgx, "sample_normal", NormalQuantity::kSampleNormal, "Walter 2007 Eqs. 24, 35, 36, stretched", kSampleGgxNote, {{1, 16, 2800, 24, 15}, {1, 16, 2800, 24, 15}, {1, 1, 1, 1, 400}, {1, 1, 1, 1, 400}}},
+    {Normals::kGgx, "D_visible", NormalQuantity::kDVisible, "Heitz 2014 Eq. 16", kDVisibleNote, {{1, 4, 4000, 8, 8}, {1, 4, 4000, 8, 8}, {1, 4, 4000, 8, 600}, {1, 4, 4000, 8, 600}}},
+    {Normals::kGgx, "sample_visible_normal", NormalQuantity::kSampleVisible, "Dupuy and Benyoub 2023; Heitz 2014 Eq. 16", kSampleVisibleNote, {{1, 16, 2400, 24, 16}, {1, 16, 2400, 24, 16}, {1, 1, 1, 1, 24}, {1, 1, 1, 1, 24}}},
+    {Normals::kGgx, "sample_visible_normal_bounded", NormalQuantity::kSampleVisibleBounded, "Eto and Tokuyoshi 2023; Heitz 2014 Eq. 16", kSampleBoundedNote, {{1, 16, 2800, 24, 16}, {1, 16, 2800, 24, 16}}},
+
+    {Normals::kBeckmann, "D", NormalQuantity::kD, "Heitz 2014 Eq. 82; Walter 2007 Eq. 25", kStretchedExponent, {{1, 4, 2800, 8, 3000}, {1, 4, 2800, 8, 3000}, {1, 4, 200, 8, 8e4}, {1, 4, 200, 8, 8e4}}},
+    {Normals::kBeckmann, "Lambda", NormalQuantity::kLambda, "Heitz 2014 Eqs. 69, 83", kLambdaExponentNote, {{1, 4, 1700, 8, 2200}, {1, 4, 1700, 8, 2200}, {1, 1, 1700, 1, 4000}, {1, 1, 1700, 1, 4000}}},
+    {Normals::kBeckmann, "G1", NormalQuantity::kG1, "Walter 2007 Eq. 26, stretched", kG1Note, {{1, 4, 2500, 8, 14}, {1, 4, 2500, 8, 14}, {1, 1, 2500, 1, 48}, {1, 1, 2500, 1, 48}}},
+    {Normals::kBeckmann, "D_visible", NormalQuantity::kDVisible, "Heitz 2014 Eq. 16", kDVisibleBeckmannNote, {{1, 4, 4000, 8, 3000}, {1, 4, 4000, 8, 3000}, {1, 4, 2800, 8, 8e4}, {1, 4, 2800, 8, 8e4}}},
+    {Normals::kBeckmann, "G1_rational", NormalQuantity::kOwn, "Walter 2007 Eq. 27, clamped at 1", "The error bound is against Eq. 27; Eq. 27 itself is within 0.313% of Eq. 26.", {{1, 4, 2300, 8, 6}}, "vx vy vz mx my mz | alpha_x alpha_y", "G1"},
+    {Normals::kBeckmann, "sample_normal", NormalQuantity::kSampleNormal, "Walter 2007 Eqs. 24, 28, 29, stretched", kSampleBeckmannNote, {{1, 16, 2800, 24, 17}, {1, 16, 2800, 24, 17}, {1, 1, 1, 1, 400}, {1, 1, 1, 1, 400}}},
+    {Normals::kBeckmann, "sample_normal_widened", NormalQuantity::kOwn, "Walter 2007 section 5.3", "beckmann.sample_normal with both alphas times 1.2 - 0.2 sqrt(|cos_i|).", {{1, 16, 2800, 24, 17}}, "u1 u2 cos_i | alpha_x alpha_y", "mx my mz pdf"},
+
+    {Normals::kPhong, "exponent", NormalQuantity::kOwn, "Walter 2007, after Eq. 30: 2/alpha^2 - 2", "0 for alpha >= 1.", {{1, 4, 1200, 8, 1.5}}, "alpha", "exponent"},
+    {Normals::kPhong, "D", NormalQuantity::kD, "Walter 2007 Eq. 30", kPhongNote, {{}, {}, {}, {}, {1, 4, 128, 8, 2000}}},
+    {Normals::kPhong, "G1", NormalQuantity::kG1, "Walter 2007 Eq. 27 with a = sqrt(0.5 exponent + 1)/tan(theta_v), clamped at 1", kG1Note, {{}, {}, {}, {}, {1, 4, 2900, 8, 6}}},
+    {Normals::kPhong, "sample_normal", NormalQuantity::kSampleNormal, "Walter 2007 Eqs. 24, 31, 32", "cos(theta_m) = u1^(1/(exponent + 2)); pdf = D cos. Double lanes round the logarithm of the density once.", {{}, {}, {}, {}, {1, 16, 1200, 24, 128}}},
 };
 
 // What the rough dielectric gives over each distribution of normals.
@@ -235,9 +303,6 @@ inline constexpr DielectricQuantity kDielectricQuantities[] = {
     {"sample_transmission_separable", DielectricQuantity::kSample, false, true, true, "Walter 2007 Eqs. 23, 37, 38, 40, 41", kSampleLobeNote},
 };
 
-// Distributions of normals that the rough dielectric comes with, by their places in kDielectricFamilies.
-enum class Normals { kGgx, kBeckmann, kPhong };
-
 struct DielectricFamily {
   std::string_view id;          // before the '.'
   std::string_view parameters;  // of the distribution
@@ -269,14 +334,58 @@ inline constexpr DielectricFamily kDielectricFamilies[] = {
 inline constexpr std::size_t kNumComponentKernels = std::size(kComponentKernels);
 inline constexpr std::size_t kNumDielectricQuantities = std::size(kDielectricQuantities);
 inline constexpr std::size_t kNumDielectricFamilies = std::size(kDielectricFamilies);
+inline constexpr std::size_t kNumNormalRows = std::size(kNormalRows);
+
+constexpr std::size_t CountNormalKernels() {
+  std::size_t count = 0;
+  for (const NormalRow& row : kNormalRows) {
+    for (std::size_t r = 0; r < kNumRoughnesses; ++r) count += row.Takes(r) ? 1 : 0;
+  }
+  return count;
+}
+inline constexpr std::size_t kNumNormalKernels = CountNormalKernels();
+
+// Component kernels, then distributions of normals, then rough dielectrics.
 inline constexpr std::size_t kNumKernels =
-    kNumComponentKernels + kNumDielectricFamilies * kNumDielectricQuantities;
-inline constexpr std::size_t kMaxInputs = 9;
+    kNumComponentKernels + kNumNormalKernels + kNumDielectricFamilies * kNumDielectricQuantities;
+inline constexpr std::size_t kMaxInputs = 11;
 inline constexpr std::size_t kMaxOutputs = 6;
 
 // Index into kKernels of a quantity, itself an index into kDielectricQuantities.
 constexpr std::size_t DielectricKernel(Normals normals, std::size_t quantity) {
-  return kNumComponentKernels + static_cast<std::size_t>(normals) * kNumDielectricQuantities + quantity;
+  return kNumComponentKernels + kNumNormalKernels +
+         static_cast<std::size_t>(normals) * kNumDielectricQuantities + quantity;
+}
+
+// A kernel of a distribution of normals: its place in kNormalRows, and its kind of roughness.
+struct NormalKernelPlace {
+  std::size_t row = kNumNormalRows;
+  RoughnessKind roughness = RoughnessKind::kAnisotropic;
+};
+
+constexpr auto MakeNormalKernelPlaces() {
+  std::array<NormalKernelPlace, kNumNormalKernels> places{};
+  std::size_t i = 0;
+  for (std::size_t row = 0; row < kNumNormalRows; ++row) {
+    for (std::size_t r = 0; r < kNumRoughnesses; ++r) {
+      if (kNormalRows[row].Takes(r)) places[i++] = {row, static_cast<RoughnessKind>(r)};
+    }
+  }
+  return places;
+}
+// In the order of kKernels, from kNumComponentKernels on.
+inline constexpr auto kNormalKernelPlaces = MakeNormalKernelPlaces();
+
+// Index into kKernels, or kNumKernels where the distribution does not give the quantity for that roughness.
+constexpr std::size_t NormalKernel(Normals normals, NormalQuantity::What what, RoughnessKind roughness) {
+  for (std::size_t i = 0; i < kNumNormalKernels; ++i) {
+    const NormalKernelPlace& place = kNormalKernelPlaces[i];
+    const NormalRow& row = kNormalRows[place.row];
+    if (row.normals == normals && row.what == what && place.roughness == roughness) {
+      return kNumComponentKernels + i;
+    }
+  }
+  return kNumKernels;
 }
 
 // Index into kDielectricQuantities, or their number if there is none.
@@ -311,6 +420,25 @@ class JoinedText {
   std::size_t size_ = 0;
 };
 
+struct NormalText {
+  JoinedText id, inputs;
+};
+
+constexpr auto MakeNormalText() {
+  std::array<NormalText, kNumNormalKernels> text{};
+  for (std::size_t i = 0; i < kNumNormalKernels; ++i) {
+    const NormalRow& row = kNormalRows[kNormalKernelPlaces[i].row];
+    const RoughnessRow& kind = kRoughnesses[static_cast<std::size_t>(kNormalKernelPlaces[i].roughness)];
+    const std::string_view family = kNormalFamilies[static_cast<std::size_t>(row.normals)];
+    text[i] = {JoinedText(family, ".", row.name, kind.suffix),
+               row.what == NormalQuantity::kOwn
+                   ? JoinedText(row.own_inputs)
+                   : JoinedText(kNormalQuantities[row.what].lanes, " | ", kind.parameters)};
+  }
+  return text;
+}
+inline constexpr auto kNormalText = MakeNormalText();
+
 struct DielectricText {
   JoinedText id, inputs, source;
 };
@@ -336,6 +464,19 @@ constexpr std::array<Kernel, kNumKernels> MakeKernels() {
   constexpr std::string_view outputs[] = {"f_cos", "pdf", "f_cos pdf", "wox woy woz weight pdf lobe"};
   std::array<Kernel, kNumKernels> kernels{};
   for (std::size_t i = 0; i < kNumComponentKernels; ++i) kernels[i] = kComponentKernels[i];
+  for (std::size_t i = 0; i < kNumNormalKernels; ++i) {
+    const NormalKernelPlace& place = kNormalKernelPlaces[i];
+    const NormalRow& row = kNormalRows[place.row];
+    const std::string_view outputs_of_row =
+        row.what == NormalQuantity::kOwn ? row.own_outputs : kNormalQuantities[row.what].outputs;
+    kernels[kNumComponentKernels + i] = {kNormalText[i].id.view(),
+                                         kNormalText[i].inputs.view(),
+                                         outputs_of_row,
+                                         row.source,
+                                         row.note,
+                                         false,
+                                         row.bounds[static_cast<std::size_t>(place.roughness)]};
+  }
   for (std::size_t f = 0; f < kNumDielectricFamilies; ++f) {
     const DielectricFamily& family = kDielectricFamilies[f];
     for (std::size_t i = 0; i < kNumDielectricQuantities; ++i) {

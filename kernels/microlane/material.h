@@ -14,6 +14,35 @@ namespace microlane {
 // ...); else says so with name, value and range. NaN lies in no range.
 std::string CheckParameter(std::string_view name, double value);
 
+// Mean and covariance of the slopes under a footprint, as LEAN and LEADR maps filter them.
+struct SlopeMoments {
+  double mean_x, mean_y;
+  double variance_x, variance_y, covariance;
+};
+
+// Off-centre roughness, checked.
+class SlopeRoughness {
+ public:
+  SlopeRoughness(double alpha_x, double alpha_y, double r_xy, double mean_x, double mean_y);
+  // That of the Beckmann distribution with these moments (Heitz 2014 Eq. 88, Sigma = Q^-1 / 2): alpha^2 is
+  // twice the variance. GGX, whose slopes have no variance, takes the same alphas.
+  explicit SlopeRoughness(const SlopeMoments& moments);
+
+  bool ok() const { return error_.empty(); }
+  // What is wrong with the parameters, else empty; then all of them are NaN.
+  const std::string& error() const { return error_; }
+
+  double alpha_x() const { return alpha_x_; }
+  double alpha_y() const { return alpha_y_; }
+  double r_xy() const { return r_xy_; }
+  double mean_x() const { return mean_x_; }
+  double mean_y() const { return mean_y_; }
+
+ private:
+  double alpha_x_, alpha_y_, r_xy_, mean_x_, mean_y_;
+  std::string error_;
+};
+
 // A rough dielectric with GGX or Beckmann normals.
 class RoughDielectricMaterial {
  public:

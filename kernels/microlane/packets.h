@@ -72,8 +72,8 @@ using ParameterOf = typename packets_internal::NotDeduced<Parameter<T>>::Type;
 // has are set and read: clearing the others would cost more than a short batch.
 template <class T>
 struct Call {
-  const T* in[9];
-  bool uniform[9] = {};  // in[k] is one value; only for inputs behind the list's '|'
+  const T* in[11];
+  bool uniform[11] = {};  // in[k] is one value; only for inputs behind the list's '|'
   T* out[6];             // an output may be the same array as an input; other overlap is not allowed
   Transport transport = Transport::kRadiance;
 };

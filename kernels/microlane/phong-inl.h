@@ -14,7 +14,7 @@ namespace HWY_NAMESPACE {
 namespace {
 
 struct Phong {
-  static constexpr bool kHasExponent = true, kMaskingInDouble = true;
+  static constexpr bool kHasExponent = true, kMaskingInDouble = true, kDensityOfCosine = true;
 
   // D/|H|^4 = (exponent + 2)/(2 pi |H|^4) cos^exponent: e = |H|^2.
   template <Care, class D>

@@ -1,5 +1,6 @@
 // Roughness as a stretch (Heitz 2014 section 5): maps applied to directions so that a distribution needs unit
-// roughness only. One alpha: isotropic; two: anisotropic.
+// roughness only. One alpha: isotropic; two: anisotropic; r_xy behind them: rotated; mean_x, mean_y behind
+// that: off-centre.
 #if defined(MICROLANE_STRETCH_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef MICROLANE_STRETCH_INL_H_
 #undef MICROLANE_STRETCH_INL_H_
@@ -101,6 +102,115 @@ HWY_INLINE Vec<D> ProjectedRoughness2(D d, Vec<D> x, Vec<D> y, Vec<D> alpha_x, V
 template <Care kCare, class D>
 HWY_INLINE Vec<D> ProjectedRoughness2(D d, Vec<D> x, Vec<D> y, Vec<D> alpha) {
   return ProjectedRoughness2<kCare>(d, x, y, alpha, alpha);
+}
+
+// Kinds of roughness that shear: sums of products cancel, so they are formed in double lanes.
+template <class... P>
+inline constexpr bool kShears = sizeof...(P) > 2;
+
+// sqrt(1 - r^2): 1 - r is exact near 1.
+template <class D>
+HWY_INLINE Vec<D> Uncorrelated(D d, Vec<D> r_xy) {
+  const Vec<D> one = Const(d, 1);
+  return hn::Sqrt(hn::Mul(hn::Sub(one, r_xy), hn::Add(one, r_xy)));
+}
+
+// Numerators and denominator of the slopes at unit roughness of a normal H, not normalised: Heitz 2014
+// Eqs. 92, 95 are (x^2 + y^2)/Hz^2. `area` is alpha_x alpha_y sqrt(1 - r^2).
+template <class D>
+HWY_INLINE void UnitSlopes(D d, Vec<D>& x, Vec<D>& y, Vec<D>& area, Vec<D> hx, Vec<D> hy, Vec<D> alpha_x,
+                           Vec<D> alpha_y, Vec<D> r_xy) {
+  const Vec<D> s = Uncorrelated(d, r_xy), one = Const(d, 1);
+  area = hn::Mul(hn::Mul(alpha_x, alpha_y), s);
+  x = hn::Mul(hx, hn::Div(one, alpha_x));
+  y = hn::Mul(hn::NegMulAdd(r_xy, x, hn::Mul(hy, hn::Div(one, alpha_y))), hn::Div(one, s));
+}
+template <class D>
+HWY_INLINE void UnitSlopes(D d, Vec<D>& x, Vec<D>& y, Vec<D>& area, Vec<D> hx, Vec<D> hy, Vec<D> hz,
+                           Vec<D> alpha_x, Vec<D> alpha_y, Vec<D> r_xy) {
+  (void)hz;
+  UnitSlopes(d, x, y, area, hx, hy, alpha_x, alpha_y, r_xy);
+}
+template <class D>
+HWY_INLINE void UnitSlopes(D d, Vec<D>& x, Vec<D>& y, Vec<D>& area, Vec<D> hx, Vec<D> hy, Vec<D> hz,
+                           Vec<D> alpha_x, Vec<D> alpha_y, Vec<D> r_xy, Vec<D> mean_x, Vec<D> mean_y) {
+  UnitSlopes(d, x, y, area, hn::MulAdd(mean_x, hz, hx), hn::MulAdd(mean_y, hz, hy), alpha_x, alpha_y, r_xy);
+}
+
+// 1/(area e^2) with e = x^2 + y^2 + Hz^2 of UnitSlopes, or Hz^2 alone: what multiplies exp(-tan^2) then,
+// which is 0 long before Hz^2 gets to its limit.
+template <bool kWithSlopes>
+struct ShearedDensityOp {
+  template <class DD, class... P>
+  static HWY_INLINE void Run(DD dd, Vec<DD>& density, Vec<DD>& unused, Vec<DD> hx, Vec<DD> hy, Vec<DD> hz,
+                             P... p) {
+    Vec<DD> x, y, area;
+    UnitSlopes(dd, x, y, area, hx, hy, hz, p...);
+    Vec<DD> e = hn::Max(hn::Mul(hz, hz), Const(dd, 0x1p-36));
+    if constexpr (kWithSlopes) e = hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(hz, hz)));
+    density = unused = hn::Div(Const(dd, 1), hn::Mul(area, hn::Mul(e, e)));
+  }
+};
+
+// -(x^2 + y^2)/Hz^2 = high + low, Heitz 2014 Eqs. 92, 95.
+struct ShearedLogDensityOp {
+  template <class DD, class... P>
+  static HWY_INLINE void Run(DD dd, Vec<DD>& high, Vec<DD>& low, Vec<DD> hx, Vec<DD> hy, Vec<DD> hz, P... p) {
+    Vec<DD> x, y, area;
+    UnitSlopes(dd, x, y, area, hx, hy, hz, p...);
+    const Vec<DD> z2 = hn::Max(hn::Mul(hz, hz), Const(dd, 0x1p-60));
+    SplitHigh(dd, hn::Neg(hn::Div(hn::MulAdd(x, x, hn::Mul(y, y)), z2)), high, low);
+  }
+};
+
+// alpha_o^2 sin^2 of Heitz 2014 Eqs. 93, 97, as a sum of squares.
+struct ShearedRoughness2Op {
+  template <class DD>
+  static HWY_INLINE void Run(DD dd, Vec<DD>& square, Vec<DD>& unused, Vec<DD> vx, Vec<DD> vy, Vec<DD> alpha_x,
+                             Vec<DD> alpha_y, Vec<DD> r_xy) {
+    const Vec<DD> y = hn::Mul(alpha_y, vy), b = hn::Mul(Uncorrelated(dd, r_xy), y);
+    const Vec<DD> a = hn::MulAdd(r_xy, y, hn::Mul(alpha_x, vx));
+    square = unused = hn::MulAdd(a, a, hn::Mul(b, b));
+  }
+};
+template <Care, class D>
+HWY_INLINE Vec<D> ProjectedRoughness2(D d, Vec<D> vx, Vec<D> vy, Vec<D> alpha_x, Vec<D> alpha_y,
+                                      Vec<D> r_xy) {
+  Vec<D> square, unused;
+  InDouble2<ShearedRoughness2Op>(d, square, unused, vx, vy, alpha_x, alpha_y, r_xy);
+  return square;
+}
+template <Care kCare, class D>
+HWY_INLINE Vec<D> ProjectedRoughness2(D d, Vec<D> vx, Vec<D> vy, Vec<D> alpha_x, Vec<D> alpha_y, Vec<D> r_xy,
+                                      Vec<D> /*mean_x*/, Vec<D> /*mean_y*/) {
+  return ProjectedRoughness2<kCare>(d, vx, vy, alpha_x, alpha_y, r_xy);
+}
+
+// vz - mean_x vx - mean_y vy, from products that are exact, as those of floats are: right to a few roundings
+// where it cancels.
+struct MesosurfaceOp {
+  template <class DD>
+  static HWY_INLINE void Run(DD, Vec<DD>& cosine, Vec<DD>& unused, Vec<DD> vx, Vec<DD> vy, Vec<DD> vz,
+                             Vec<DD> mean_x, Vec<DD> mean_y) {
+    Vec<DD> s, s_tail, t, t_tail;
+    TwoSum(hn::Mul(mean_x, vx), hn::Mul(mean_y, vy), s, s_tail);
+    TwoSum(vz, hn::Neg(s), t, t_tail);
+    cosine = unused = hn::Add(t, hn::Sub(t_tail, s_tail));
+  }
+};
+
+// v.n over the projected area of the mesosurface's normal: the cosine that masking goes by (Heitz 2014
+// Eq. 96). vz but off-centre.
+template <class D, class... P>
+HWY_INLINE Vec<D> MesosurfaceCosine(D, Vec<D>, Vec<D>, Vec<D> vz, P...) {
+  return vz;
+}
+template <class D>
+HWY_INLINE Vec<D> MesosurfaceCosine(D d, Vec<D> vx, Vec<D> vy, Vec<D> vz, Vec<D> /*alpha_x*/,
+                                    Vec<D> /*alpha_y*/, Vec<D> /*r_xy*/, Vec<D> mean_x, Vec<D> mean_y) {
+  Vec<D> cosine, unused;
+  InDouble2<MesosurfaceOp>(d, cosine, unused, vx, vy, vz, mean_x, mean_y);
+  return cosine;
 }
 
 template <class V>

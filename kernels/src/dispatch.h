@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstddef>
 
+#include "microlane/call.h"
 #include "microlane/kernel_list.h"
 #include "microlane/packets.h"
 
@@ -53,13 +54,18 @@ inline void Run(const KernelCode& code, Accuracy, const Call<double>& call, std:
 
 // Each family's dispatch table.
 const FamilyFunction* MathTable();
-const FamilyFunction* GgxTable();
-const FamilyFunction* BeckmannTable();
-const FamilyFunction* PhongTable();
 const FamilyFunction* FresnelTable();
 const FamilyFunction* HalfVectorTable();
 template <Normals kNormals>
+const FamilyFunction* NormalsTable();
+template <Normals kNormals>
 const FamilyFunction* RoughDielectricTable();
+template <>
+const FamilyFunction* NormalsTable<Normals::kGgx>();
+template <>
+const FamilyFunction* NormalsTable<Normals::kBeckmann>();
+template <>
+const FamilyFunction* NormalsTable<Normals::kPhong>();
 template <>
 const FamilyFunction* RoughDielectricTable<Normals::kGgx>();
 template <>
@@ -67,42 +73,12 @@ const FamilyFunction* RoughDielectricTable<Normals::kBeckmann>();
 template <>
 const FamilyFunction* RoughDielectricTable<Normals::kPhong>();
 
-// Builds a Call from a public function's arguments, in the kernel list's order.
+// What CallBuilder::Run runs: the kernel of that index, of the family that the table stands for.
 template <class T>
-class CallBuilder {
- public:
-  CallBuilder() {}  // NOLINT(modernize-use-equals-default): value initialisation would clear call_ first
-
-  CallBuilder& In(const T* lanes) {
-    call_.in[inputs_++] = lanes;
-    return *this;
-  }
-  CallBuilder& In(const Directions<T>& v) { return In(v.x).In(v.y).In(v.z); }
-  // The parameter must outlive the call.
-  CallBuilder& In(const Parameter<T>& p) {
-    call_.uniform[inputs_] = p.uniform();
-    return In(p.data());
-  }
-  CallBuilder& Out(T* lanes) {
-    call_.out[outputs_++] = lanes;
-    return *this;
-  }
-  CallBuilder& Out(const MutableDirections<T>& v) { return Out(v.x).Out(v.y).Out(v.z); }
-  CallBuilder& With(Transport transport) {
-    call_.transport = transport;
-    return *this;
-  }
-  // kKernel: index in the kernel list.
-  template <std::size_t kKernel>
-  void Run(const FamilyFunction* table, Accuracy accuracy, std::size_t n) const {
-    static_assert(kKernel < kNumKernels);
-    microlane::Run(CodeOf(table, kKernel), accuracy, call_, n);
-  }
-
- private:
-  Call<T> call_;
-  int inputs_ = 0, outputs_ = 0;
-};
+void RunFrom(const FamilyFunction* table, std::size_t kernel, Accuracy accuracy, const Call<T>& call,
+             std::size_t n) {
+  Run(CodeOf(table, kernel), accuracy, call, n);
+}
 
 }  // namespace microlane
 

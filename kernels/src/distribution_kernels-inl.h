@@ -1,10 +1,12 @@
-// Batch kernels that every distribution has, over its policy and an `Ids` struct that names them.
+// Batch kernels of a distribution, over its policy and the kernel list's rows.
 #if defined(MICROLANE_SRC_DISTRIBUTION_KERNELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef MICROLANE_SRC_DISTRIBUTION_KERNELS_INL_H_
 #undef MICROLANE_SRC_DISTRIBUTION_KERNELS_INL_H_
 #else
 #define MICROLANE_SRC_DISTRIBUTION_KERNELS_INL_H_
 #endif
+
+#include <utility>
 
 #include "microlane/distribution-inl.h"
 #include "src/batch-inl.h"
@@ -14,65 +16,63 @@ namespace microlane {
 namespace HWY_NAMESPACE {
 namespace {
 
-template <class Dist, const std::string_view& kName>
-struct DKernel {
-  static constexpr std::string_view kId = kName;
-  template <Accuracy A, class D, class... P>
-  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, Vec<D> mx, Vec<D> my, Vec<D> mz,
-                              P... p) {
-    out.v0 = NormalDensity<Dist, A>(d, mx, my, mz, p...);
+// The kernel at a place of kNormalKernelPlaces.
+template <class Dist, std::size_t kPlace>
+struct NormalQuantityKernel {
+  static constexpr std::string_view kId = kNormalText[kPlace].id.view();
+  static constexpr NormalQuantity::What kWhat = kNormalRows[kNormalKernelPlaces[kPlace].row].what;
+
+  template <Accuracy A, class D, class... V>
+  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, Vec<D> a, Vec<D> b, V... in) {
+    if constexpr (kWhat == NormalQuantity::kD && Dist::kDensityOfCosine) {
+      out.v0 = Dist::template NormalDensity<A>(d, in...);
+    } else if constexpr (kWhat == NormalQuantity::kD) {
+      out.v0 = NormalDensity<Dist, A>(d, a, b, in...);
+    } else if constexpr (kWhat == NormalQuantity::kLambda) {
+      out.v0 = Lambda<Dist, A>(d, a, b, in...);
+    } else if constexpr (kWhat == NormalQuantity::kG1) {
+      out.v0 = G1<Dist, A>(d, a, b, in...);
+    } else if constexpr (kWhat == NormalQuantity::kDVisible) {
+      out.v0 = VisibleNormalDensity<Dist, A>(d, a, b, in...);
+    } else if constexpr (kWhat == NormalQuantity::kSampleNormal) {
+      SampleNormal<Dist, A>(d, out.v0, out.v1, out.v2, out.v3, a, b, in...);
+    } else {
+      constexpr bool bounded = kWhat == NormalQuantity::kSampleVisibleBounded;
+      SampleVisibleNormal<Dist, bounded, A>(d, out.v0, out.v1, out.v2, out.v3, a, b, in...);
+    }
   }
 };
 
-template <class Dist, const std::string_view& kName>
-struct LambdaKernel {
-  static constexpr std::string_view kId = kName;
-  template <Accuracy A, class D, class... P>
-  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, Vec<D> vx, Vec<D> vy, Vec<D> vz,
-                              P... p) {
-    out.v0 = Dist::template Lambda<A>(d, vx, vy, vz, p...);
+// Places in kNormalKernelPlaces of what a distribution gives, but for its own quantities.
+template <Normals kNormals>
+struct NormalPlaces {
+  static constexpr bool Contains(std::size_t place) {
+    const NormalRow& row = kNormalRows[kNormalKernelPlaces[place].row];
+    return row.normals == kNormals && row.what != NormalQuantity::kOwn;
+  }
+  static constexpr std::size_t Count() {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < kNumNormalKernels; ++i) count += Contains(i) ? 1 : 0;
+    return count;
+  }
+  // The place of that number.
+  static constexpr std::size_t At(std::size_t number) {
+    std::size_t i = 0;
+    while (!Contains(i) || number-- > 0) ++i;
+    return i;
   }
 };
 
-template <class Dist, const std::string_view& kName>
-struct G1Kernel {
-  static constexpr std::string_view kId = kName;
-  template <Accuracy A, class D, class... P>
-  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, Vec<D> vx, Vec<D> vy, Vec<D> vz,
-                              Vec<D> mx, Vec<D> my, Vec<D> mz, P... p) {
-    out.v0 = G1<Dist, A>(d, vx, vy, vz, mx, my, mz, p...);
-  }
-};
+template <class Dist, Normals kNormals, class... Own, std::size_t... kNumber>
+FamilyCode NormalsFamily(std::index_sequence<kNumber...>) {
+  return Family<NormalQuantityKernel<Dist, NormalPlaces<kNormals>::At(kNumber)>..., Own...>();
+}
 
-template <class Dist, const std::string_view& kName>
-struct DVisibleKernel {
-  static constexpr std::string_view kId = kName;
-  template <Accuracy A, class D, class... P>
-  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, Vec<D> vx, Vec<D> vy, Vec<D> vz,
-                              Vec<D> mx, Vec<D> my, Vec<D> mz, P... p) {
-    out.v0 = VisibleNormalDensity<Dist, A>(d, vx, vy, vz, mx, my, mz, p...);
-  }
-};
-
-template <class Dist, const std::string_view& kName, bool kBounded = false>
-struct SampleVisibleNormalKernel {
-  static constexpr std::string_view kId = kName;
-  template <Accuracy A, class D, class... P>
-  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, Vec<D> vx, Vec<D> vy, Vec<D> vz,
-                              Vec<D> u1, Vec<D> u2, P... p) {
-    Dist::template SampleVisibleNormal<kBounded, A>(d, out.v0, out.v1, out.v2, out.v3, vx, vy, vz, u1, u2,
-                                                    p...);
-  }
-};
-
-template <class Dist, const std::string_view& kName>
-struct SampleNormalKernel {
-  static constexpr std::string_view kId = kName;
-  template <Accuracy A, class D, class... P>
-  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, Vec<D> u1, Vec<D> u2, P... p) {
-    Dist::template SampleNormal<A>(d, out.v0, out.v1, out.v2, out.v3, u1, u2, p...);
-  }
-};
+// The table of all of the kernel list's quantities of a distribution on this target, Own... its own.
+template <class Dist, Normals kNormals, class... Own>
+FamilyCode NormalsFamily() {
+  return NormalsFamily<Dist, kNormals, Own...>(std::make_index_sequence<NormalPlaces<kNormals>::Count()>());
+}
 
 }  // namespace
 }  // namespace HWY_NAMESPACE

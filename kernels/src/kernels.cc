@@ -1,6 +1,7 @@
 #include "microlane/kernels.h"
 
 #include <array>
+#include <iterator>
 #include <string_view>
 #include <utility>
 
@@ -10,33 +11,41 @@
 namespace microlane {
 namespace {
 
-template <std::size_t... kFamily>
-const FamilyFunction* RoughDielectricTableOf(std::string_view family, std::index_sequence<kFamily...>) {
+// The tables of all distributions, in the order of Normals.
+template <std::size_t... kNormals>
+const FamilyFunction* NormalsTableOf(std::size_t normals, std::index_sequence<kNormals...>) {
   const FamilyFunction* table = nullptr;
-  ((family == kDielectricFamilies[kFamily].id
-        ? void(table = RoughDielectricTable<static_cast<Normals>(kFamily)>())
-        : void()),
+  ((normals == kNormals ? void(table = NormalsTable<static_cast<Normals>(kNormals)>()) : void()), ...);
+  return table;
+}
+template <std::size_t... kNormals>
+const FamilyFunction* RoughDielectricTableOf(std::size_t normals, std::index_sequence<kNormals...>) {
+  const FamilyFunction* table = nullptr;
+  ((normals == kNormals ? void(table = RoughDielectricTable<static_cast<Normals>(kNormals)>()) : void()),
    ...);
   return table;
 }
 
-const FamilyFunction* TableOf(std::string_view id) {
+const FamilyFunction* TableOf(std::size_t kernel) {
+  constexpr std::size_t first_dielectric = kNumComponentKernels + kNumNormalKernels;
+  if (kernel >= first_dielectric) {
+    return RoughDielectricTableOf((kernel - first_dielectric) / kNumDielectricQuantities,
+                                  std::make_index_sequence<kNumDielectricFamilies>());
+  }
+  if (kernel >= kNumComponentKernels) {
+    const NormalRow& row = kNormalRows[kNormalKernelPlaces[kernel - kNumComponentKernels].row];
+    return NormalsTableOf(static_cast<std::size_t>(row.normals),
+                          std::make_index_sequence<std::size(kNormalFamilies)>());
+  }
+  const std::string_view id = kKernels[kernel].id;
   const std::string_view family = id.substr(0, id.find('.'));
-  const FamilyFunction* const rough_dielectric =
-      RoughDielectricTableOf(family, std::make_index_sequence<kNumDielectricFamilies>());
-  return rough_dielectric != nullptr ? rough_dielectric
-         : family == "math"          ? MathTable()
-         : family == "ggx"           ? GgxTable()
-         : family == "beckmann"      ? BeckmannTable()
-         : family == "phong"         ? PhongTable()
-         : family == "fresnel"       ? FresnelTable()
-                                     : HalfVectorTable();
+  return family == "math" ? MathTable() : family == "fresnel" ? FresnelTable() : HalfVectorTable();
 }
 
 const FamilyFunction* Table(std::size_t kernel) {
   static const auto tables = [] {
     std::array<const FamilyFunction*, kNumKernels> all{};
-    for (std::size_t i = 0; i < kNumKernels; ++i) all[i] = TableOf(kKernels[i].id);
+    for (std::size_t i = 0; i < kNumKernels; ++i) all[i] = TableOf(i);
     return all;
   }();
   return tables[kernel];

@@ -1,6 +1,7 @@
 #include "microlane/material.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <initializer_list>
 #include <iterator>
@@ -49,6 +50,27 @@ std::string CheckParameter(std::string_view name, double value) {
   if (rounded >= static_cast<float>(input->low) && rounded <= static_cast<float>(input->high)) return "";
   return std::string(name) + " = " + Text(value) + " is outside [" + Text(input->low) + ", " +
          Text(input->high) + "]";
+}
+
+SlopeRoughness::SlopeRoughness(double alpha_x, double alpha_y, double r_xy, double mean_x, double mean_y)
+    : alpha_x_(alpha_x), alpha_y_(alpha_y), r_xy_(r_xy), mean_x_(mean_x), mean_y_(mean_y) {
+  error_ = CheckAll({{"alpha_x", &alpha_x_},
+                     {"alpha_y", &alpha_y_},
+                     {"r_xy", &r_xy_},
+                     {"mean_x", &mean_x_},
+                     {"mean_y", &mean_y_}});
+}
+
+SlopeRoughness::SlopeRoughness(const SlopeMoments& moments)
+    : SlopeRoughness(std::sqrt(2 * moments.variance_x), std::sqrt(2 * moments.variance_y),
+                     moments.covariance / (std::sqrt(moments.variance_x) * std::sqrt(moments.variance_y)),
+                     moments.mean_x, moments.mean_y) {
+  if (ok()) return;
+  // By the names of what was given.
+  const auto prefix = [](std::string_view name, double value) {
+    return value > 0 ? "" : std::string(name) + " = " + Text(value) + " is not above 0; ";
+  };
+  error_ = prefix("variance_x", moments.variance_x) + prefix("variance_y", moments.variance_y) + error_;
 }
 
 RoughDielectricMaterial::RoughDielectricMaterial(double alpha_x, double alpha_y, double eta)

@@ -21,7 +21,7 @@ struct Beckmann {
   Real D(const Vec& m) const {
     if (m.z <= 0) return 0;
     const Real cos4 = Square(Square(m.z));
-    return exp(-StretchedTan2(m, alpha)) / (Pi() * alpha.alpha_x * alpha.alpha_y * cos4);
+    return exp(-StretchedTan2(m, alpha)) / (Pi() * alpha.Area() * cos4);
   }
 
   // Heitz 2014, Eqs. 83 and 69: exp(-a^2) / (2 a sqrt(pi)) - erfc(a) / 2, with the first term taken out;
@@ -36,13 +36,18 @@ struct Beckmann {
 
   // Walter 2007, Eq. 26, which is 1 / (1 + Lambda).
   Real G1(const Vec& v, const Vec& m) const {
-    if (!SameSide(v, m)) return 0;
+    if (!SameSide(v, m, alpha)) return 0;
     return 1 / (1 + Lambda(v));
   }
 
+  Real DVisible(const Vec& v, const Vec& m) const { return VisibleDensity(*this, v, m); }
+
+  // (1 + Lambda(v)) |v.n| at v.n = 0: a Lambda tends to 1/(2 sqrt(pi)).
+  Real GrazingArea(const Vec& v) const { return sqrt(ProjectedRoughness2(v, alpha)) / (2 * SqrtPi()); }
+
   // Walter 2007, Eq. 27; its a is infinite at normal incidence.
   Real G1Rational(const Vec& v, const Vec& m) const {
-    if (!SameSide(v, m)) return 0;
+    if (!SameSide(v, m, alpha)) return 0;
     return RationalG1(1 / sqrt(InverseA2(v, alpha)));
   }
 

@@ -13,7 +13,7 @@ struct Ggx {
   Real D(const Vec& m) const {
     if (m.z <= 0) return 0;
     const Real cos4 = Square(Square(m.z));
-    return 1 / (Pi() * alpha.alpha_x * alpha.alpha_y * cos4 * Square(1 + StretchedTan2(m, alpha)));
+    return 1 / (Pi() * alpha.Area() * cos4 * Square(1 + StretchedTan2(m, alpha)));
   }
 
   // Heitz 2014, Eq. 86; infinite at vz = 0.
@@ -21,17 +21,14 @@ struct Ggx {
 
   // Walter 2007, Eq. 34, which is 1 / (1 + Lambda).
   Real G1(const Vec& v, const Vec& m) const {
-    if (!SameSide(v, m)) return 0;
+    if (!SameSide(v, m, alpha)) return 0;
     return 2 / (1 + sqrt(1 + InverseA2(v, alpha)));
   }
 
-  // Heitz 2014, Eq. 16; at vz = 0 the limit from above.
-  Real DVisible(const Vec& v, const Vec& m) const {
-    const Real v_m = v.z < 0 ? Real(-Dot(v, m)) : Dot(v, m);
-    if (v_m <= 0) return 0;
-    if (v.z == 0) return 2 * v_m * D(m) / sqrt(Square(alpha.alpha_x * v.x) + Square(alpha.alpha_y * v.y));
-    return G1(v, m) * v_m * D(m) / abs(v.z);
-  }
+  Real DVisible(const Vec& v, const Vec& m) const { return VisibleDensity(*this, v, m); }
+
+  // (1 + Lambda(v)) |v.n| at v.n = 0: a Lambda tends to 1/2.
+  Real GrazingArea(const Vec& v) const { return sqrt(ProjectedRoughness2(v, alpha)) / 2; }
 
   // Walter 2007, Eqs. 35 and 36, stretched.
   Vec SampleNormal(const Real& u1, const Real& u2) const {

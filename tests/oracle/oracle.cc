@@ -3,6 +3,7 @@
 #include <array>
 #include <limits>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include "oracle/beckmann.h"
@@ -34,34 +35,21 @@ void Store(const Vec& v, Real* out) {
   out[2] = v.z;
 }
 
-// Parameters, as they follow the per-lane inputs: alpha_x alpha_y, one alpha for both, or an exponent.
-enum class Roughnesses { kAnisotropic, kIsotropic };
-
-template <class Distribution, Roughnesses kRoughnesses = Roughnesses::kAnisotropic>
-struct Maker {
-  static constexpr std::size_t kParameters = kRoughnesses == Roughnesses::kAnisotropic ? 2 : 1;
-  static Distribution Make(const Real* in) { return {{in[0], in[kParameters - 1]}}; }
-};
-
-template <>
-struct Maker<Phong> {
-  static constexpr std::size_t kParameters = 1;
-  static Phong Make(const Real* in) { return {in[0]}; }
-};
-
-template <class M>
-void D(Call& call) {
-  call.out[0] = M::Make(call.in + 3).D(Direction(call.in));
-}
-
-template <class M>
-void Lambda(Call& call) {
-  call.out[0] = M::Make(call.in + 3).Lambda(Direction(call.in));
-}
-
-template <class M>
-void G1(Call& call) {
-  call.out[0] = M::Make(call.in + 6).G1(Direction(call.in), Direction(call.in + 3));
+// A distribution from its parameters, as they follow the other inputs.
+template <Normals kNormals, RoughnessKind kRoughness>
+auto MakeNormals(const Real* in) {
+  constexpr bool shears = kRoughness == RoughnessKind::kRotated || kRoughness == RoughnessKind::kOffCentre;
+  if constexpr (kNormals == Normals::kPhong) {
+    return Phong{in[0]};
+  } else {
+    Roughness roughness{in[0], in[kRoughness == RoughnessKind::kIsotropic ? 0 : 1]};
+    if constexpr (shears) roughness.r_xy = in[2];
+    if constexpr (kRoughness == RoughnessKind::kOffCentre) {
+      roughness.mean_x = in[3];
+      roughness.mean_y = in[4];
+    }
+    return std::conditional_t<kNormals == Normals::kGgx, Ggx, Beckmann>{roughness};
+  }
 }
 
 template <class Distribution>
@@ -71,19 +59,8 @@ void StoreNormal(const Distribution& distribution, Call& call) {
   call.out[3] = distribution.D(m) * m.z;  // Walter 2007, Eq. 24
 }
 
-template <class M>
-void SampleNormal(Call& call) {
-  StoreNormal(M::Make(call.in + 2), call);
-}
-
-template <class M>
-void DVisible(Call& call) {
-  call.out[0] = M::Make(call.in + 6).DVisible(Direction(call.in), Direction(call.in + 3));
-}
-
-template <class M, bool kBounded>
-void SampleVisibleNormal(Call& call) {
-  const auto distribution = M::Make(call.in + 5);
+template <bool kBounded, class Distribution>
+void StoreVisibleNormal(const Distribution& distribution, Call& call) {
   const Vec v = Direction(call.in);
   const Real k = kBounded ? CapBound(v, distribution.alpha) : Real(1);
   const CapNormal normal = VisibleNormal(v, call.in[3], call.in[4], distribution.alpha, k);
@@ -94,17 +71,40 @@ void SampleVisibleNormal(Call& call) {
   call.kappa = call.direction_kappa > unstretched ? call.direction_kappa : unstretched;
 }
 
+// A quantity of a distribution by its place in kNormalKernelPlaces.
+template <std::size_t kPlace>
+void OfNormals(Call& call) {
+  constexpr NormalRow row = kNormalRows[kNormalKernelPlaces[kPlace].row];
+  constexpr std::size_t parameters = Split(kNormalQuantities[row.what].lanes).count;
+  const auto normals = MakeNormals<row.normals, kNormalKernelPlaces[kPlace].roughness>(call.in + parameters);
+  if constexpr (row.what == NormalQuantity::kD) {
+    call.out[0] = normals.D(Direction(call.in));
+  } else if constexpr (row.what == NormalQuantity::kLambda) {
+    call.out[0] = normals.Lambda(Direction(call.in));
+  } else if constexpr (row.what == NormalQuantity::kG1) {
+    call.out[0] = normals.G1(Direction(call.in), Direction(call.in + 3));
+  } else if constexpr (row.what == NormalQuantity::kDVisible) {
+    call.out[0] = normals.DVisible(Direction(call.in), Direction(call.in + 3));
+  } else if constexpr (row.what == NormalQuantity::kSampleNormal) {
+    StoreNormal(normals, call);
+  } else {
+    StoreVisibleNormal<row.what == NormalQuantity::kSampleVisibleBounded>(normals, call);
+  }
+}
+
 // The rough dielectric by its place in kDielectricQuantities.
-template <class M, std::size_t kQuantity>
+template <Normals kNormals, std::size_t kQuantity>
 void Dielectric(Call& call) {
   constexpr DielectricQuantity row = kDielectricQuantities[kQuantity];
   constexpr int lobes = (row.reflects ? kReflection : 0) | (row.transmits ? kTransmission : 0);
   constexpr bool one_lobe_sampled = row.what == DielectricQuantity::kSample && !row.HasBothLobes();
   const Real* const parameters = call.in + (one_lobe_sampled ? 5 : 6);
-  using Distribution = decltype(M::Make(parameters));
-  const RoughDielectric<Distribution> bsdf{M::Make(parameters), parameters[M::kParameters],
-                                           row.separable ? Masking::kSeparable : Masking::kCorrelated,
-                                           call.transport};
+  constexpr RoughnessKind roughness =
+      kNormals == Normals::kPhong ? RoughnessKind::kExponent : RoughnessKind::kAnisotropic;
+  constexpr std::size_t eta = Split(kRoughnesses[static_cast<std::size_t>(roughness)].parameters).count;
+  const auto normals = MakeNormals<kNormals, roughness>(parameters);
+  const RoughDielectric<std::remove_const_t<decltype(normals)>> bsdf{
+      normals, parameters[eta], row.separable ? Masking::kSeparable : Masking::kCorrelated, call.transport};
   const Vec wi = Direction(call.in);
   if constexpr (row.what == DielectricQuantity::kSample) {
     const DirectionSample sample = bsdf.Sample(
@@ -130,12 +130,6 @@ struct Entry {
   Function function;
 };
 
-using GgxXy = Maker<Ggx>;
-using GgxIsotropic = Maker<Ggx, Roughnesses::kIsotropic>;
-using BeckmannXy = Maker<Beckmann>;
-using BeckmannIsotropic = Maker<Beckmann, Roughnesses::kIsotropic>;
-using PhongExp = Maker<Phong>;
-
 constexpr Entry kEntries[] = {
     {"math.exp", [](Call& call) { call.out[0] = exp(call.in[0]); }},
     {"math.neg_log1m", [](Call& call) { call.out[0] = NegLog1m(call.in[0]); }},
@@ -147,35 +141,19 @@ constexpr Entry kEntries[] = {
      }},
     {"math.erfcx_defect", [](Call& call) { call.out[0] = ErfcxDefect(call.in[0]); }},
 
-    {"ggx.D", D<GgxXy>},
-    {"ggx.D_isotropic", D<GgxIsotropic>},
-    {"ggx.Lambda", Lambda<GgxXy>},
-    {"ggx.Lambda_isotropic", Lambda<GgxIsotropic>},
-    {"ggx.G1", G1<GgxXy>},
-    {"ggx.G1_isotropic", G1<GgxIsotropic>},
-    {"ggx.sample_normal", SampleNormal<GgxXy>},
-    {"ggx.D_visible", DVisible<GgxXy>},
-    {"ggx.sample_visible_normal", SampleVisibleNormal<GgxXy, false>},
-    {"ggx.sample_visible_normal_bounded", SampleVisibleNormal<GgxXy, true>},
-
-    {"beckmann.D", D<BeckmannXy>},
-    {"beckmann.D_isotropic", D<BeckmannIsotropic>},
-    {"beckmann.Lambda", Lambda<BeckmannXy>},
-    {"beckmann.Lambda_isotropic", Lambda<BeckmannIsotropic>},
-    {"beckmann.G1", G1<BeckmannXy>},
-    {"beckmann.G1_isotropic", G1<BeckmannIsotropic>},
     {"beckmann.G1_rational",
      [](Call& call) {
-       call.out[0] = BeckmannXy::Make(call.in + 6).G1Rational(Direction(call.in), Direction(call.in + 3));
+       call.out[0] = MakeNormals<Normals::kBeckmann, RoughnessKind::kAnisotropic>(call.in + 6)
+                         .G1Rational(Direction(call.in), Direction(call.in + 3));
      }},
-    {"beckmann.sample_normal", SampleNormal<BeckmannXy>},
     {"beckmann.sample_normal_widened",
-     [](Call& call) { StoreNormal(Widened(BeckmannXy::Make(call.in + 3), call.in[2]), call); }},
+     [](Call& call) {
+       StoreNormal(
+           Widened(MakeNormals<Normals::kBeckmann, RoughnessKind::kAnisotropic>(call.in + 3), call.in[2]),
+           call);
+     }},
 
     {"phong.exponent", [](Call& call) { call.out[0] = PhongExponent(call.in[0]); }},
-    {"phong.D", D<PhongExp>},
-    {"phong.G1", G1<PhongExp>},
-    {"phong.sample_normal", SampleNormal<PhongExp>},
 
     {"fresnel.dielectric", [](Call& call) { call.out[0] = FresnelDielectric(call.in[0], call.in[1]); }},
     {"fresnel.dielectric_transmittance",
@@ -219,10 +197,20 @@ struct Resolved {
   Metric metric[kMaxOutputs] = {};
 };
 
-template <class M, std::size_t... kQuantity>
-constexpr void AddDielectrics(std::array<Resolved, kNumKernels>& table, Normals normals,
-                              std::index_sequence<kQuantity...>) {
-  ((table[DielectricKernel(normals, kQuantity)].function = Dielectric<M, kQuantity>), ...);
+template <std::size_t... kPlace>
+constexpr void AddNormals(std::array<Resolved, kNumKernels>& table, std::index_sequence<kPlace...>) {
+  const auto add = [&](auto place) {
+    constexpr std::size_t kThis = decltype(place)::value;
+    if constexpr (kNormalRows[kNormalKernelPlaces[kThis].row].what != NormalQuantity::kOwn) {
+      table[kNumComponentKernels + kThis].function = OfNormals<kThis>;
+    }
+  };
+  (add(std::integral_constant<std::size_t, kPlace>()), ...);
+}
+
+template <Normals kNormals, std::size_t... kQuantity>
+constexpr void AddDielectrics(std::array<Resolved, kNumKernels>& table, std::index_sequence<kQuantity...>) {
+  ((table[DielectricKernel(kNormals, kQuantity)].function = Dielectric<kNormals, kQuantity>), ...);
 }
 
 constexpr std::array<Resolved, kNumKernels> Resolve() {
@@ -238,9 +226,10 @@ constexpr std::array<Resolved, kNumKernels> Resolve() {
     }
   }
   constexpr auto quantities = std::make_index_sequence<kNumDielectricQuantities>();
-  AddDielectrics<GgxXy>(table, Normals::kGgx, quantities);
-  AddDielectrics<BeckmannXy>(table, Normals::kBeckmann, quantities);
-  AddDielectrics<PhongExp>(table, Normals::kPhong, quantities);
+  AddNormals(table, std::make_index_sequence<kNumNormalKernels>());
+  AddDielectrics<Normals::kGgx>(table, quantities);
+  AddDielectrics<Normals::kBeckmann>(table, quantities);
+  AddDielectrics<Normals::kPhong>(table, quantities);
   return table;
 }
 

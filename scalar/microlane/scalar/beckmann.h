@@ -22,7 +22,13 @@ struct Beckmann {
   Real alpha_x, alpha_y;
 
   // Heitz 2014 Eq. 82 (Walter 2007 Eq. 25). 0 for m.z <= 0.
-  Real D(const Vec3<Real>& m) const { return Saturate<Real>(DOf(Widen(m), m.z, 1)); }
+  Real D(const Vec3<Real>& m) const { return Saturate<Real>(DTimes(m, 1)); }
+
+  // factor D(m), for a factor that may bring D back into range.
+  double DTimes(const Vec3<Real>& m, double factor) const { return DOfGiven(Widen(m), factor); }
+  double DOfGiven(const Vec3<Wide<Real>>& m, double factor) const {
+    return DOf(m, Narrow<double>(m.z), factor);
+  }
 
   // factor D(half / |half|). The factor comes in, and the product leaves in double, because it may bring D
   // back into range.

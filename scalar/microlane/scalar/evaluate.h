@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include "microlane/kernel_list.h"
@@ -16,6 +17,7 @@
 #include "microlane/scalar/math.h"
 #include "microlane/scalar/phong.h"
 #include "microlane/scalar/rough_dielectric.h"
+#include "microlane/scalar/sheared.h"
 
 namespace microlane::scalar {
 
@@ -41,51 +43,53 @@ void Store(const SampledNormal<double>& normal, Real* out) {
   out[3] = Saturate<Real>(normal.pdf);
 }
 
-// How a distribution's parameters follow the other inputs.
-template <class Real>
-struct GgxXy {
-  static constexpr std::size_t kParameters = 2;
-  static Ggx<Real> Make(const Real* in) { return {in[0], in[1]}; }
-};
-template <class Real>
-struct GgxIsotropic {
-  static Ggx<Real> Make(const Real* in) { return {in[0], in[0]}; }
-};
-template <class Real>
-struct BeckmannXy {
-  static constexpr std::size_t kParameters = 2;
-  static Beckmann<Real> Make(const Real* in) { return {in[0], in[1]}; }
-};
-template <class Real>
-struct BeckmannIsotropic {
-  static Beckmann<Real> Make(const Real* in) { return {in[0], in[0]}; }
-};
-template <class Real>
-struct PhongExponentOnly {
-  static constexpr std::size_t kParameters = 1;
-  static Phong<Real> Make(const Real* in) { return {in[0]}; }
-};
+template <RoughnessKind kRoughness, template <class> class Distribution, class Real>
+auto MakeRough(const Real* in) {
+  if constexpr (kRoughness == RoughnessKind::kIsotropic) {
+    return Distribution<Real>{in[0], in[0]};
+  } else if constexpr (kRoughness == RoughnessKind::kAnisotropic) {
+    return Distribution<Real>{in[0], in[1]};
+  } else if constexpr (kRoughness == RoughnessKind::kRotated) {
+    return Sheared<Distribution, Real>{in[0], in[1], in[2]};
+  } else {
+    return Sheared<Distribution, Real>{in[0], in[1], in[2], in[3], in[4]};
+  }
+}
 
-template <class Real, template <class> class Parameters>
-struct NormalKernels {
-  static void D(const Real* in, Real* out, Transport) { out[0] = Parameters<Real>::Make(in + 3).D(Load(in)); }
-  static void Lambda(const Real* in, Real* out, Transport) {
-    out[0] = scalar::Lambda(Parameters<Real>::Make(in + 3), Load(in));
+// A distribution from its parameters, as they follow the other inputs.
+template <Normals kNormals, RoughnessKind kRoughness, class Real>
+auto MakeNormals(const Real* in) {
+  if constexpr (kNormals == Normals::kPhong) return Phong<Real>{in[0]};
+  if constexpr (kNormals == Normals::kBeckmann) return MakeRough<kRoughness, Beckmann>(in);
+  if constexpr (kNormals == Normals::kGgx) return MakeRough<kRoughness, Ggx>(in);
+}
+
+// The roughness that the rough dielectric takes.
+constexpr RoughnessKind DielectricRoughness(Normals normals) {
+  return normals == Normals::kPhong ? RoughnessKind::kExponent : RoughnessKind::kAnisotropic;
+}
+
+// A quantity of a distribution by its place in kNormalKernelPlaces.
+template <class Real, std::size_t kPlace>
+void RunNormals(const Real* in, Real* out, Transport) {
+  constexpr NormalRow row = kNormalRows[kNormalKernelPlaces[kPlace].row];
+  constexpr std::size_t parameters = Split(kNormalQuantities[row.what].lanes).count;
+  const auto normals = MakeNormals<row.normals, kNormalKernelPlaces[kPlace].roughness>(in + parameters);
+  if constexpr (row.what == NormalQuantity::kD) {
+    out[0] = normals.D(Load(in));
+  } else if constexpr (row.what == NormalQuantity::kLambda) {
+    out[0] = Lambda(normals, Load(in));
+  } else if constexpr (row.what == NormalQuantity::kG1) {
+    out[0] = G1(normals, Load(in), Load(in + 3));
+  } else if constexpr (row.what == NormalQuantity::kDVisible) {
+    out[0] = DVisible(normals, Load(in), Load(in + 3));
+  } else if constexpr (row.what == NormalQuantity::kSampleNormal) {
+    Store(normals.SampleNormal(in[0], in[1]), out);
+  } else {
+    constexpr bool bounded = row.what == NormalQuantity::kSampleVisibleBounded;
+    Store(normals.SampleVisibleNormal(Load(in), in[3], in[4], bounded), out);
   }
-  static void G1(const Real* in, Real* out, Transport) {
-    out[0] = scalar::G1(Parameters<Real>::Make(in + 6), Load(in), Load(in + 3));
-  }
-  static void DVisible(const Real* in, Real* out, Transport) {
-    out[0] = scalar::DVisible(Parameters<Real>::Make(in + 6), Load(in), Load(in + 3));
-  }
-  template <bool kBounded>
-  static void SampleVisible(const Real* in, Real* out, Transport) {
-    Store(Parameters<Real>::Make(in + 5).SampleVisibleNormal(Load(in), in[3], in[4], kBounded), out);
-  }
-  static void Sample(const Real* in, Real* out, Transport) {
-    Store(Parameters<Real>::Make(in + 2).SampleNormal(in[0], in[1]), out);
-  }
-};
+}
 
 template <Masking masking, template <class> class Distribution, class Real>
 RoughDielectric<Distribution, Real, masking> MakeDielectric(const Distribution<Real>& distribution, Real eta,
@@ -94,7 +98,7 @@ RoughDielectric<Distribution, Real, masking> MakeDielectric(const Distribution<R
 }
 
 // The rough dielectric by its place in kDielectricQuantities.
-template <class Real, template <class> class Parameters, std::size_t kQuantity>
+template <class Real, Normals kNormals, std::size_t kQuantity>
 struct Dielectric {
   static constexpr DielectricQuantity kRow = kDielectricQuantities[kQuantity];
   static constexpr Lobes kLobes =
@@ -104,8 +108,10 @@ struct Dielectric {
     constexpr Masking masking = kRow.separable ? Masking::kSeparable : Masking::kHeightCorrelated;
     constexpr bool one_lobe_sampled = kRow.what == DielectricQuantity::kSample && !kRow.HasBothLobes();
     const Real* const parameters = in + (one_lobe_sampled ? 5 : 6);
-    const auto dielectric = MakeDielectric<masking>(Parameters<Real>::Make(parameters),
-                                                    parameters[Parameters<Real>::kParameters], transport);
+    constexpr RoughnessKind roughness = DielectricRoughness(kNormals);
+    constexpr std::size_t eta = Split(kRoughnesses[static_cast<std::size_t>(roughness)].parameters).count;
+    const auto dielectric =
+        MakeDielectric<masking>(MakeNormals<kNormals, roughness>(parameters), parameters[eta], transport);
     if constexpr (kRow.what == DielectricQuantity::kEval) {
       out[0] = dielectric.Eval(Load(in), Load(in + 3), kLobes);
     } else if constexpr (kRow.what == DielectricQuantity::kPdf) {
@@ -132,11 +138,6 @@ struct Entry {
 
 template <class Real>
 constexpr auto Entries() {
-  using GgxNormals = NormalKernels<Real, GgxXy>;
-  using GgxIsotropicNormals = NormalKernels<Real, GgxIsotropic>;
-  using BeckmannNormals = NormalKernels<Real, BeckmannXy>;
-  using BeckmannIsotropicNormals = NormalKernels<Real, BeckmannIsotropic>;
-  using PhongNormals = NormalKernels<Real, PhongExponentOnly>;
   using Fresnel = FresnelDielectric<Real>;
   return std::array{
       Entry<Real>{"math.exp", [](const Real* in, Real* out, Transport) { out[0] = Exp(in[0]); }},
@@ -150,41 +151,17 @@ constexpr auto Entries() {
       Entry<Real>{"math.erfcx_defect",
                   [](const Real* in, Real* out, Transport) { out[0] = ErfcxDefect(in[0]); }},
 
-      Entry<Real>{"ggx.D", GgxNormals::D},
-      Entry<Real>{"ggx.D_isotropic", GgxIsotropicNormals::D},
-      Entry<Real>{"ggx.Lambda", GgxNormals::Lambda},
-      Entry<Real>{"ggx.Lambda_isotropic", GgxIsotropicNormals::Lambda},
-      Entry<Real>{"ggx.G1", GgxNormals::G1},
-      Entry<Real>{"ggx.G1_isotropic", GgxIsotropicNormals::G1},
-      Entry<Real>{"ggx.sample_normal", GgxNormals::Sample},
-      Entry<Real>{"ggx.D_visible", GgxNormals::DVisible},
-      Entry<Real>{"ggx.sample_visible_normal", GgxNormals::template SampleVisible<false>},
-      Entry<Real>{"ggx.sample_visible_normal_bounded", GgxNormals::template SampleVisible<true>},
-
-      Entry<Real>{"beckmann.D", BeckmannNormals::D},
-      Entry<Real>{"beckmann.D_isotropic", BeckmannIsotropicNormals::D},
-      Entry<Real>{"beckmann.Lambda", BeckmannNormals::Lambda},
-      Entry<Real>{"beckmann.Lambda_isotropic", BeckmannIsotropicNormals::Lambda},
-      Entry<Real>{"beckmann.G1", BeckmannNormals::G1},
-      Entry<Real>{"beckmann.G1_isotropic", BeckmannIsotropicNormals::G1},
       Entry<Real>{"beckmann.G1_rational",
                   [](const Real* in, Real* out, Transport) {
-                    out[0] = BeckmannXy<Real>::Make(in + 6).G1Rational(Load(in), Load(in + 3));
+                    out[0] = Beckmann<Real>{in[6], in[7]}.G1Rational(Load(in), Load(in + 3));
                   }},
-      Entry<Real>{"beckmann.sample_normal", BeckmannNormals::Sample},
       Entry<Real>{"beckmann.sample_normal_widened",
                   [](const Real* in, Real* out, Transport) {
-                    Store(BeckmannXy<Real>::Make(in + 3).Widened(in[2]).SampleNormal(in[0], in[1]), out);
+                    Store(Beckmann<Real>{in[3], in[4]}.Widened(in[2]).SampleNormal(in[0], in[1]), out);
                   }},
 
       Entry<Real>{"phong.exponent",
                   [](const Real* in, Real* out, Transport) { out[0] = PhongExponent(in[0]); }},
-      Entry<Real>{"phong.D", PhongNormals::D},
-      Entry<Real>{"phong.G1",
-                  [](const Real* in, Real* out, Transport) {
-                    out[0] = PhongG1(Phong<Real>{in[6]}, Load(in), Load(in + 3));
-                  }},
-      Entry<Real>{"phong.sample_normal", PhongNormals::Sample},
 
       Entry<Real>{"fresnel.dielectric",
                   [](const Real* in, Real* out, Transport) {
@@ -237,10 +214,21 @@ constexpr auto Entries() {
   };
 }
 
-template <class Real, template <class> class Parameters, std::size_t... kQuantity>
-constexpr void AddDielectrics(std::array<Function<Real>, kNumKernels>& table, Normals normals,
+template <class Real, std::size_t... kPlace>
+constexpr void AddNormals(std::array<Function<Real>, kNumKernels>& table, std::index_sequence<kPlace...>) {
+  const auto add = [&](auto place) {
+    constexpr std::size_t kThis = decltype(place)::value;
+    if constexpr (kNormalRows[kNormalKernelPlaces[kThis].row].what != NormalQuantity::kOwn) {
+      table[kNumComponentKernels + kThis] = RunNormals<Real, kThis>;
+    }
+  };
+  (add(std::integral_constant<std::size_t, kPlace>()), ...);
+}
+
+template <Normals kNormals, class Real, std::size_t... kQuantity>
+constexpr void AddDielectrics(std::array<Function<Real>, kNumKernels>& table,
                               std::index_sequence<kQuantity...>) {
-  ((table[DielectricKernel(normals, kQuantity)] = Dielectric<Real, Parameters, kQuantity>::Run), ...);
+  ((table[DielectricKernel(kNormals, kQuantity)] = Dielectric<Real, kNormals, kQuantity>::Run), ...);
 }
 
 // Functions in the order of kKernels; null where the list has an entry that this file has not.
@@ -248,10 +236,11 @@ template <class Real>
 constexpr std::array<Function<Real>, kNumKernels> Resolve() {
   std::array<Function<Real>, kNumKernels> table{};
   for (const Entry<Real>& entry : Entries<Real>()) table[KernelIndex(entry.id)] = entry.function;
+  AddNormals(table, std::make_index_sequence<kNumNormalKernels>());
   constexpr auto quantities = std::make_index_sequence<kNumDielectricQuantities>();
-  AddDielectrics<Real, GgxXy>(table, Normals::kGgx, quantities);
-  AddDielectrics<Real, BeckmannXy>(table, Normals::kBeckmann, quantities);
-  AddDielectrics<Real, PhongExponentOnly>(table, Normals::kPhong, quantities);
+  AddDielectrics<Normals::kGgx>(table, quantities);
+  AddDielectrics<Normals::kBeckmann>(table, quantities);
+  AddDielectrics<Normals::kPhong>(table, quantities);
   return table;
 }
 

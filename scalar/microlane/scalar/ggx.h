@@ -19,7 +19,8 @@ struct Ggx {
   Real D(const Vec3<Real>& m) const { return Saturate<Real>(DTimes(m, 1)); }
 
   // factor D(m), for a factor that may bring D back into range.
-  double DTimes(const Vec3<Real>& m, double factor) const { return factor * DOf(Widen(m), Wide<Real>(1)); }
+  double DTimes(const Vec3<Real>& m, double factor) const { return DOfGiven(Widen(m), factor); }
+  double DOfGiven(const Vec3<Wide<Real>>& m, double factor) const { return factor * DOf(m, Wide<Real>(1)); }
 
   // factor D(half / |half|). The factor comes in, and the product leaves in double, because it may bring D
   // back into range.

@@ -82,7 +82,7 @@ bool IsNan(const Phong<Real>& d) {
 
 // chi+ times Walter 2007 Eq. 27 with Phong's a.
 template <class Real>
-Real PhongG1(const Phong<Real>& phong, const Vec3<Real>& v, const Vec3<Real>& m) {
+Real G1(const Phong<Real>& phong, const Vec3<Real>& v, const Vec3<Real>& m) {
   if (AnyNan(phong, v, m)) return kNan<Real>;
   if (!SidesAgree(Dot(Widen(v), Widen(m)), v.z)) return 0;
   return static_cast<Real>(RationalG1(phong.A(v)));
