@@ -131,11 +131,16 @@ HWY_INLINE Vec<D> Lambda(D d, Vec<D> vx, Vec<D> vy, Vec<D> vz, P... p) {
   return lambda;
 }
 
-struct DotOp {
+// 2^40 a.b, for products that are exact, as those of floats in double lanes are: right to a few roundings
+// where it cancels, and with all its bits as a float.
+struct CarefulDotOp {
   template <Accuracy, class DD>
-  static HWY_INLINE void Run(DD, Vec<DD>& dot, Vec<DD>& unused, Vec<DD> ax, Vec<DD> ay, Vec<DD> az,
+  static HWY_INLINE void Run(DD d, Vec<DD>& dot, Vec<DD>& unused, Vec<DD> ax, Vec<DD> ay, Vec<DD> az,
                              Vec<DD> bx, Vec<DD> by, Vec<DD> bz) {
-    dot = unused = Dot(ax, ay, az, bx, by, bz);
+    Vec<DD> s, s_tail, t, t_tail;
+    TwoSum(hn::Mul(ax, bx), hn::Mul(ay, by), s, s_tail);
+    TwoSum(s, hn::Mul(az, bz), t, t_tail);
+    dot = unused = hn::Mul(hn::Add(t, hn::Add(s_tail, t_tail)), Const(d, 0x1p40));
   }
 };
 
@@ -159,24 +164,11 @@ HWY_INLINE Vec<D> G1(D d, Vec<D> vx, Vec<D> vy, Vec<D> vz, Vec<D> mx, Vec<D> my,
   } else {
     G1OfViewOp<Dist>::template Run<A>(d, g1, unused, vx, vy, vz, p...);
   }
-  Precisely<DotOp, Accuracy::kStandard>(d, dot, unused, vx, vy, vz, mx, my, mz);
+  Precisely<CarefulDotOp, Accuracy::kStandard>(d, dot, unused, vx, vy, vz, mx, my, mz);
   vz = MesosurfaceCosine(d, vx, vy, vz, p...);
   const Vec<D> zero = hn::Zero(d);
   return ZeroIf(hn::Or(hn::Le(FlipSign(d, dot, vz), zero), hn::Eq(vz, zero)), g1);
 }
-
-// 2^40 a.b, for products that are exact, as those of floats in double lanes are: right to a few roundings
-// where it cancels, and with all its bits as a float.
-struct CarefulDotOp {
-  template <Accuracy, class DD>
-  static HWY_INLINE void Run(DD d, Vec<DD>& dot, Vec<DD>& unused, Vec<DD> ax, Vec<DD> ay, Vec<DD> az,
-                             Vec<DD> bx, Vec<DD> by, Vec<DD> bz) {
-    Vec<DD> s, s_tail, t, t_tail;
-    TwoSum(hn::Mul(ax, bx), hn::Mul(ay, by), s, s_tail);
-    TwoSum(s, hn::Mul(az, bz), t, t_tail);
-    dot = unused = hn::Mul(hn::Add(t, hn::Add(s_tail, t_tail)), Const(d, 0x1p40));
-  }
-};
 
 // 2^40 G1 (v.m)/(pi v.n) where it is positive, from dot = 2^40 v.m: G1/|v.n| = 2/(|vz| + |vz| (1 + 2 Lambda))
 // is finite at grazing. sign(0) = 1: vz = 0 counts as above, and so does -0.
@@ -203,10 +195,34 @@ struct VisibilityOp {
   }
 };
 
+// The visibility of sheared slopes times their ShearedDensityOp, rounded once.
+template <class Dist>
+struct ShearedVisibilityOp {
+  template <class DD, class... P>
+  static HWY_INLINE void Run(DD dd, Vec<DD>& product, Vec<DD>& unused, Vec<DD> vx, Vec<DD> vy, Vec<DD> vz,
+                             Vec<DD> mx, Vec<DD> my, Vec<DD> mz, P... p) {
+    Vec<DD> visibility, density;
+    VisibilityOp<Dist>::template Run<Accuracy::kStandard>(dd, visibility, unused, vx, vy, vz, mx, my, mz,
+                                                          p...);
+    ShearedDensityOp<!Dist::kHasExponent>::Run(dd, density, unused, mx, my, mz, p...);
+    product = unused = hn::Mul(hn::Mul(visibility, Const(dd, 0x1p-40)), density);
+  }
+};
+
 // Density of visible normals (Heitz 2014 Eq. 16).
 template <class Dist, Accuracy A, class D, class... P>
 HWY_INLINE Vec<D> VisibleNormalDensity(D d, Vec<D> vx, Vec<D> vy, Vec<D> vz, Vec<D> mx, Vec<D> my, Vec<D> mz,
                                        P... p) {
+  if constexpr (kShears<P...> && A != Accuracy::kFast) {
+    Vec<D> q, unused;
+    InDouble2<ShearedVisibilityOp<Dist>>(d, q, unused, vx, vy, vz, mx, my, mz, p...);
+    if constexpr (Dist::kHasExponent) {
+      Vec<D> high, low;
+      InDouble2<ShearedLogDensityOp>(d, high, low, mx, my, mz, p...);
+      q = ExpTimes<A>(d, high, low, q);
+    }
+    return ZeroIf(hn::Or(hn::Le(q, hn::Zero(d)), hn::Le(mz, hn::Zero(d))), q);
+  }
   Vec<D> visibility, unused;
   if constexpr (A == Accuracy::kFast) {
     Vec<D> dot;
@@ -215,8 +231,15 @@ HWY_INLINE Vec<D> VisibleNormalDensity(D d, Vec<D> vx, Vec<D> vy, Vec<D> vz, Vec
   } else {
     InDouble2<InStandard<VisibilityOp<Dist>>>(d, visibility, unused, vx, vy, vz, mx, my, mz, p...);
   }
-  const Vec<D> pi_density = TimesPiNormalDensity<Dist, A>(d, Const(d, 1), mx, my, mz, p...);
-  return ZeroIf(hn::Le(visibility, hn::Zero(d)), hn::Mul(hn::Mul(pi_density, visibility), Const(d, 0x1p-40)));
+  const auto hidden = hn::Le(visibility, hn::Zero(d));
+  const Vec<D> scale = Const(d, 0x1p-40);
+  if constexpr (Dist::kHasExponent) {
+    // Before the exponential, which may leave the density subnormal where the product is not.
+    return ZeroIf(hidden, hn::Mul(TimesPiNormalDensity<Dist, A>(d, visibility, mx, my, mz, p...), scale));
+  } else {
+    const Vec<D> pi_density = TimesPiNormalDensity<Dist, A>(d, Const(d, 1), mx, my, mz, p...);
+    return ZeroIf(hidden, hn::Mul(hn::Mul(pi_density, visibility), scale));
+  }
 }
 
 // Azimuth of Walter 2007 Eq. 29 and a normal from slopes r (alpha_x cos phi, alpha_y sin phi) (Heitz 2014

@@ -40,10 +40,11 @@ HWY_INLINE void NormalizedSum(D d, Vec<D>& hx, Vec<D>& hy, Vec<D>& hz, Vec<D> ix
   hy = hn::Mul(hy, scale);
   hz = hn::Mul(hz, scale);
   const Vec<D> length2 = Dot(hx, hy, hz, hx, hy, hz);
-  const Vec<D> inverse = ZeroIf(hn::Eq(length2, hn::Zero(d)), Reciprocal<A>(d, Sqrt<A>(d, length2)));
-  hx = hn::Mul(hx, inverse);
-  hy = hn::Mul(hy, inverse);
-  hz = hn::Mul(hz, inverse);
+  const Vec<D> length = Sqrt<A>(d, length2), inverse = Reciprocal<A>(d, length);
+  const auto none = hn::Eq(length2, hn::Zero(d));
+  hx = ZeroIf(none, DivByReciprocal<A>(d, hx, length, inverse));
+  hy = ZeroIf(none, DivByReciprocal<A>(d, hy, length, inverse));
+  hz = ZeroIf(none, DivByReciprocal<A>(d, hz, length, inverse));
 }
 
 // h_r of Walter 2007 Eq. 13.

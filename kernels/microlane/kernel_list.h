@@ -253,11 +253,11 @@ inline constexpr NormalRow kNormalRows[] = {
     {Normals::kGgx, "G1", NormalQuantity::kG1, "Walter 2007 Eq. 34, stretched", kG1Note, {{1, 4, 2048, 8, 3}, {1, 4, 2048, 8, 3}, {1, 4, 2048, 8, 40}, {1, 4, 2048, 8, 40}}},
     {Normals::kGgx, "sample_normal", NormalQuantity::kSampleNormal, "Walter 2007 Eqs. 24, 35, 36, stretched", kSampleGgxNote, {{1, 16, 2800, 24, 15}, {1, 16, 2800, 24, 15}, {1, 1, 1, 1, 400}, {1, 1, 1, 1, 400}}},
     {Normals::kGgx, "D_visible", NormalQuantity::kDVisible, "Heitz 2014 Eq. 16", kDVisibleNote, {{1, 4, 4000, 8, 8}, {1, 4, 4000, 8, 8}, {1, 4, 4000, 8, 600}, {1, 4, 4000, 8, 600}}},
-    {Normals::kGgx, "sample_visible_normal", NormalQuantity::kSampleVisible, "Dupuy and Benyoub 2023; Heitz 2014 Eq. 16", kSampleVisibleNote, {{1, 16, 2400, 24, 16}, {1, 16, 2400, 24, 16}, {1, 1, 1, 1, 24}, {1, 1, 1, 1, 24}}},
+    {Normals::kGgx, "sample_visible_normal", NormalQuantity::kSampleVisible, "Dupuy and Benyoub 2023; Heitz 2014 Eq. 16", kSampleVisibleNote, {{1, 16, 2400, 24, 16}, {1, 16, 2400, 24, 16}, {1, 1, 1, 1, 600}, {1, 1, 1, 1, 600}}},
     {Normals::kGgx, "sample_visible_normal_bounded", NormalQuantity::kSampleVisibleBounded, "Eto and Tokuyoshi 2023; Heitz 2014 Eq. 16", kSampleBoundedNote, {{1, 16, 2800, 24, 16}, {1, 16, 2800, 24, 16}}},
 
     {Normals::kBeckmann, "D", NormalQuantity::kD, "Heitz 2014 Eq. 82; Walter 2007 Eq. 25", kStretchedExponent, {{1, 4, 2800, 8, 3000}, {1, 4, 2800, 8, 3000}, {1, 4, 200, 8, 8e4}, {1, 4, 200, 8, 8e4}}},
-    {Normals::kBeckmann, "Lambda", NormalQuantity::kLambda, "Heitz 2014 Eqs. 69, 83", kLambdaExponentNote, {{1, 4, 1700, 8, 2200}, {1, 4, 1700, 8, 2200}, {1, 1, 1700, 1, 4000}, {1, 1, 1700, 1, 4000}}},
+    {Normals::kBeckmann, "Lambda", NormalQuantity::kLambda, "Heitz 2014 Eqs. 69, 83", kLambdaExponentNote, {{1, 4, 1700, 8, 2200}, {1, 4, 1700, 8, 2200}, {1, 1, 1700, 1, 12000}, {1, 1, 1700, 1, 12000}}},
     {Normals::kBeckmann, "G1", NormalQuantity::kG1, "Walter 2007 Eq. 26, stretched", kG1Note, {{1, 4, 2500, 8, 14}, {1, 4, 2500, 8, 14}, {1, 1, 2500, 1, 48}, {1, 1, 2500, 1, 48}}},
     {Normals::kBeckmann, "D_visible", NormalQuantity::kDVisible, "Heitz 2014 Eq. 16", kDVisibleBeckmannNote, {{1, 4, 4000, 8, 3000}, {1, 4, 4000, 8, 3000}, {1, 4, 2800, 8, 8e4}, {1, 4, 2800, 8, 8e4}}},
     {Normals::kBeckmann, "G1_rational", NormalQuantity::kOwn, "Walter 2007 Eq. 27, clamped at 1", "The error bound is against Eq. 27; Eq. 27 itself is within 0.313% of Eq. 26.", {{1, 4, 2300, 8, 6}}, "vx vy vz mx my mz | alpha_x alpha_y", "G1"},

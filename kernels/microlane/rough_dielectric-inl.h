@@ -307,7 +307,7 @@ HWY_INLINE void RoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& value, Ve
   }
   if constexpr (!kWide && kNeedsFresnel) {
     // The error of g^2 reaches F divided by c g, T divided by g^2.
-    constexpr double kLeast = kFast ? 0x1p-13 : 0x1p-19;
+    constexpr double kLeast = kFast ? 0x1p-12 : 0x1p-19;
     hard = hn::Or(hard, hn::Lt(hn::Abs(hn::Mul(c2, g2)), hn::Mul(norm2, Const(d, kLeast))));
     if constexpr (kTransmits) {
       constexpr double kLeastT = kFast ? 0x1p-11 : 0x1p-13;
