@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
 #include <cstddef>
 #include <utility>
 
@@ -305,6 +306,18 @@ inline float FrDielectric(float cos_theta_i, float eta) {
   return (Sqr(r.parallel) + Sqr(r.perpendicular)) / 2;
 }
 
+// pbrt-v4's FrComplex, of the complex index eta + i k.
+inline float FrComplex(float cos_theta_i, std::complex<float> eta) {
+  cos_theta_i = std::clamp(std::abs(cos_theta_i), 0.f, 1.f);
+  const float sin2_theta_i = 1 - Sqr(cos_theta_i);
+  const std::complex<float> sin2_theta_t = sin2_theta_i / (eta * eta);
+  const std::complex<float> cos_theta_t = std::sqrt(1.f - sin2_theta_t);
+  const std::complex<float> parallel = (eta * cos_theta_i - cos_theta_t) / (eta * cos_theta_i + cos_theta_t);
+  const std::complex<float> perpendicular =
+      (cos_theta_i - eta * cos_theta_t) / (cos_theta_i + eta * cos_theta_t);
+  return (std::norm(parallel) + std::norm(perpendicular)) / 2;
+}
+
 inline Vec3 Reflect(const Vec3& wi, const Vec3& m) { return 2 * Dot(wi, m) * m - wi; }
 
 // Snell's law about m on wi's side.
@@ -529,6 +542,53 @@ void ReflectanceP(const float* in, float* out, Transport) {
   out[0] = Sqr(FresnelAmplitudes(in[0], in[1]).parallel);
 }
 
+void ConductorReflectance(const float* in, float* out, Transport) {
+  out[0] = FrComplex(in[0], {in[1], in[2]});
+}
+void SchlickReflectance(const float* in, float* out, Transport) {
+  const float x = std::clamp(1 - std::abs(in[0]), 0.f, 1.f);
+  out[0] = in[1] + (1 - in[1]) * Sqr(Sqr(x)) * x;
+}
+
+// Whether w sees wm from its side of the surface.
+bool Sees(const Vec3& w, const Vec3& wm) { return Dot(w, wm) * CosTheta(w) > 0; }
+void MaskingVCavity(const float* in, float* out, Transport) {
+  const Vec3 w = Load(in), wm = Load(in + 3);
+  out[0] =
+      Sees(w, wm) && CosTheta(wm) > 0 ? std::min(1.f, 2 * CosTheta(wm) * AbsCosTheta(w) / AbsDot(w, wm)) : 0;
+}
+void MaskingImplicit(const float* in, float* out, Transport) {
+  out[0] = Sees(Load(in), Load(in + 3)) ? AbsCosTheta(Load(in)) : 0;
+}
+void MaskingSchlickSmith(const float* in, float* out, Transport) {
+  const Vec3 w = Load(in);
+  const float k = in[6] * std::sqrt(2 / kPi), c = AbsCosTheta(w);
+  out[0] = Sees(w, Load(in + 3)) ? c / (c * (1 - k) + k) : 0;
+}
+void MaskingKelemen(const float* in, float* out, Transport) {
+  const Vec3 w = Load(in), wm = Load(in + 3);
+  out[0] = Sees(w, wm) ? AbsCosTheta(w) / AbsDot(w, wm) : 0;
+}
+
+// From atan2 of each azimuth, wrapped.
+float AzimuthDifference(const float* in) {
+  const float difference = std::abs(std::atan2(in[1], in[0]) - std::atan2(in[3], in[2]));
+  return difference > kPi ? 2 * kPi - difference : difference;
+}
+float DirectionalCorrelation(float phi) { return 4.41f * phi / (4.41f * phi + 1); }
+void AzimuthsApart(const float* in, float* out, Transport) { out[0] = AzimuthDifference(in); }
+void JointSeparable(const float* in, float* out, Transport) { out[0] = 1 / (1 + in[0]) * (1 / (1 + in[1])); }
+void JointHeight(const float* in, float* out, Transport) { out[0] = 1 / (1 + in[0] + in[1]); }
+void JointDirection(const float* in, float* out, Transport) {
+  const float g_i = 1 / (1 + in[0]), g_o = 1 / (1 + in[1]);
+  const float lambda = DirectionalCorrelation(AzimuthDifference(in + 2));
+  out[0] = lambda * g_i * g_o + (1 - lambda) * std::min(g_i, g_o);
+}
+void JointHeightDirection(const float* in, float* out, Transport) {
+  const float lambda = DirectionalCorrelation(AzimuthDifference(in + 2));
+  out[0] = 1 / (1 + std::max(in[0], in[1]) + lambda * std::min(in[0], in[1]));
+}
+
 void ReflectionHalf(const float* in, float* out, Transport) {
   const Vec3 half = Normalize(Load(in) + Load(in + 3));
   Store(in[2] < 0 ? -half : half, out);
@@ -601,6 +661,8 @@ constexpr std::array kEntries = {
     Make<KernelIndex("math.sincos_2pi"), SinCos2Pi>(),
     Make<KernelIndex("math.erfcx_defect"), ErfcxDefect>(),
 
+    Make<KernelIndex("math.azimuth_difference"), AzimuthsApart>(),
+
     Make<KernelIndex("beckmann.G1_rational"), MaskingG1Rational>(),
     Make<KernelIndex("beckmann.sample_normal_widened"), SampleNormalWidened>(),
 
@@ -611,6 +673,9 @@ constexpr std::array kEntries = {
     Make<KernelIndex("fresnel.dielectric_s"), ReflectanceS>(),
     Make<KernelIndex("fresnel.dielectric_p"), ReflectanceP>(),
 
+    Make<KernelIndex("fresnel.conductor"), ConductorReflectance>(),
+    Make<KernelIndex("fresnel.schlick"), SchlickReflectance>(),
+
     Make<KernelIndex("half_vector.reflection"), ReflectionHalf>(),
     Make<KernelIndex("half_vector.reflection_jacobian"), ReflectionJacobian>(),
     Make<KernelIndex("half_vector.reflection_jacobian_cos"), ReflectionJacobianCos>(),
@@ -619,6 +684,15 @@ constexpr std::array kEntries = {
     Make<KernelIndex("half_vector.refraction_jacobian_cos"), RefractionJacobianCos>(),
     Make<KernelIndex("reflect"), MirrorDirection>(),
     Make<KernelIndex("refract"), RefractedDirection>(),
+
+    Make<KernelIndex("masking.v_cavity"), MaskingVCavity>(),
+    Make<KernelIndex("masking.implicit"), MaskingImplicit>(),
+    Make<KernelIndex("masking.schlick_smith"), MaskingSchlickSmith>(),
+    Make<KernelIndex("masking.kelemen"), MaskingKelemen>(),
+    Make<KernelIndex("masking.separable"), JointSeparable>(),
+    Make<KernelIndex("masking.height_correlated"), JointHeight>(),
+    Make<KernelIndex("masking.direction_correlated"), JointDirection>(),
+    Make<KernelIndex("masking.height_direction_correlated"), JointHeightDirection>(),
 };
 
 template <std::size_t... kPlace>

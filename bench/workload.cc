@@ -69,8 +69,13 @@ class Lanes {
                : name == "mean_y"   ? -0.05
                : name == "exponent" ? std::max(0.0, 2 / (alpha_x_ * alpha_x_) - 2)
                : name == "eta"      ? eta_
+               : name == "n"        ? eta_
+               : name == "kappa"    ? 2 * eta_
+               : name == "f0"       ? 0.04
                : name == "x"        ? x_
                : name == "a"        ? a_
+               : name == "Lambda_i" ? a_
+               : name == "Lambda_o" ? alpha_x_ * a_
                                     : alpha_x_;
     }
   }

@@ -163,6 +163,9 @@ const std::vector<Row<T>>& Rows() {
       {"fresnel.dielectric_s", [](A& a) { fresnel::DielectricS(a.n, a.Lanes(0), a.Value(1), a.Out(0), a.accuracy); }},
       {"fresnel.dielectric_p", [](A& a) { fresnel::DielectricP(a.n, a.Lanes(0), a.Value(1), a.Out(0), a.accuracy); }},
 
+      {"fresnel.conductor", [](A& a) { fresnel::Conductor(a.n, a.Lanes(0), a.Value(1), a.Value(2), a.Out(0), a.accuracy); }},
+      {"fresnel.schlick", [](A& a) { fresnel::Schlick(a.n, a.Lanes(0), a.Value(1), a.Out(0), a.accuracy); }},
+
       {"half_vector.reflection", [](A& a) { half_vector::Reflection(a.n, a.Direction(0), a.Direction(3), a.OutDirection(0), a.accuracy); }},
       {"half_vector.reflection_jacobian", [](A& a) { half_vector::ReflectionJacobian(a.n, a.Direction(0), a.Direction(3), a.Out(0), a.accuracy); }},
       {"half_vector.reflection_jacobian_cos", [](A& a) { half_vector::ReflectionJacobian(a.n, a.Lanes(0), a.Out(0), a.accuracy); }},
@@ -171,6 +174,15 @@ const std::vector<Row<T>>& Rows() {
       {"half_vector.refraction_jacobian_cos", [](A& a) { half_vector::RefractionJacobian(a.n, a.Lanes(0), a.Lanes(1), a.Value(2), a.Out(0), a.accuracy); }},
       {"reflect", [](A& a) { Reflect(a.n, a.Direction(0), a.Direction(3), a.OutDirection(0), a.accuracy); }},
       {"refract", [](A& a) { Refract(a.n, a.Direction(0), a.Direction(3), a.Value(6), a.OutDirection(0), a.accuracy); }},
+
+      {"masking.v_cavity", [](A& a) { masking::VCavity(a.n, a.Direction(0), a.Direction(3), a.Out(0), a.accuracy); }},
+      {"masking.implicit", [](A& a) { masking::Implicit(a.n, a.Direction(0), a.Direction(3), a.Out(0), a.accuracy); }},
+      {"masking.schlick_smith", [](A& a) { masking::SchlickSmith(a.n, a.Direction(0), a.Direction(3), a.Value(6), a.Out(0), a.accuracy); }},
+      {"masking.kelemen", [](A& a) { masking::Kelemen(a.n, a.Direction(0), a.Direction(3), a.Out(0), a.accuracy); }},
+      {"masking.separable", [](A& a) { masking::Separable(a.n, a.Lanes(0), a.Lanes(1), a.Out(0), a.accuracy); }},
+      {"masking.height_correlated", [](A& a) { masking::HeightCorrelated(a.n, a.Lanes(0), a.Lanes(1), a.Out(0), a.accuracy); }},
+      {"masking.direction_correlated", [](A& a) { masking::DirectionCorrelated(a.n, a.Lanes(0), a.Lanes(1), {a.Lanes(2), a.Lanes(3), nullptr}, {a.Lanes(4), a.Lanes(5), nullptr}, a.Out(0), a.accuracy); }},
+      {"masking.height_direction_correlated", [](A& a) { masking::HeightDirectionCorrelated(a.n, a.Lanes(0), a.Lanes(1), {a.Lanes(2), a.Lanes(3), nullptr}, {a.Lanes(4), a.Lanes(5), nullptr}, a.Out(0), a.accuracy); }},
   };
   // clang-format on
   static const std::vector<Row<T>> rows = [] {
@@ -242,6 +254,31 @@ using Types = ::testing::Types<float, double>;
 TYPED_TEST_SUITE(TypedCalls, Types);
 
 // The moments of Q^-1 / 2 come back as Q's parameters.
+// Every channel of a conductor has the bits of a call of its own.
+TEST(Fresnel, ChannelsAreSingleCalls) {
+  const std::vector<float> cosines = {1, 0.9f, 0.5f, 0.1f, -0.3f, 1e-4f, 0};
+  const std::vector<float> per_lane = {0.2f, 0.5f, 1, 1.5f, 3, 5, 9};
+  for (const std::size_t channels : {std::size_t{1}, std::size_t{3}, std::size_t{16}}) {
+    std::vector<Parameter<float>> index, kappa;
+    std::vector<std::vector<float>> together(channels, std::vector<float>(cosines.size()));
+    std::vector<float*> outputs;
+    for (std::size_t c = 0; c < channels; ++c) {
+      index.push_back(c % 4 == 1 ? Parameter<float>(per_lane.data())
+                                 : Parameter<float>(0.2f + 0.3f * static_cast<float>(c)));
+      kappa.push_back(c % 4 == 2 ? Parameter<float>(per_lane.data())
+                                 : Parameter<float>(3.0f - 0.1f * static_cast<float>(c)));
+      outputs.push_back(together[c].data());
+    }
+    fresnel::Conductor(cosines.size(), cosines.data(), channels, index.data(), kappa.data(), outputs.data());
+    for (std::size_t c = 0; c < channels; ++c) {
+      std::vector<float> alone(cosines.size());
+      fresnel::Conductor(cosines.size(), cosines.data(), index[c], kappa[c], alone.data());
+      EXPECT_EQ(alone, together[c]) << c;
+      EXPECT_GT(alone[0], 0);
+    }
+  }
+}
+
 TEST(Material, SlopeMomentsBecomeRoughness) {
   const double ax = 0.3, ay = 0.05, r = -0.8;
   const SlopeRoughness rough(SlopeMoments{0.2, -1.5, ax * ax / 2, ay * ay / 2, r * ax * ay / 2});

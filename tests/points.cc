@@ -37,6 +37,11 @@ enum Field : int {
   kMeanY,
   kExponent,
   kEta,
+  kN,
+  kKappa,
+  kF0,
+  kLambdaI,
+  kLambdaO,
   kU1,
   kU2,
   kU3,
@@ -45,9 +50,9 @@ enum Field : int {
   kNumFields
 };
 constexpr std::string_view kFieldNames[] = {
-    "mx",     "my",     "mz",       "vx",    "vy",    "vz",    "wix",     "wiy",     "wiz",
-    "wox",    "woy",    "woz",      "cos_i", "cos_o", "alpha", "alpha_x", "alpha_y", "r_xy",
-    "mean_x", "mean_y", "exponent", "eta",   "u1",    "u2",    "u3",      "x",       "a"};
+    "mx",  "my",    "mz",    "vx",       "vy",       "vz",      "wix",  "wiy",    "wiz",    "wox",      "woy",
+    "woz", "cos_i", "cos_o", "alpha",    "alpha_x",  "alpha_y", "r_xy", "mean_x", "mean_y", "exponent", "eta",
+    "n",   "kappa", "f0",    "Lambda_i", "Lambda_o", "u1",      "u2",   "u3",     "x",      "a"};
 static_assert(std::size(kFieldNames) == kNumFields && std::size(kInputs) == kNumFields,
               "one field per input");
 
@@ -260,6 +265,16 @@ class SceneMaker {
     scene_.fill(0);
     DrawRoughness();
     scene_[kEta] = Fit(kEta, Eta(), values_);
+    scene_[kN] = ConductorIndex();
+    scene_[kKappa] = random_.Chance(0.15)  ? 0
+                     : random_.Chance(0.1) ? random_.LogUniform(1e-30, 1e-4)
+                                           : random_.LogUniform(1e-4, 20);
+    scene_[kF0] = random_.Chance(0.1)   ? 0
+                  : random_.Chance(0.1) ? 1
+                  : random_.Chance(0.5) ? random_.LogUniform(1e-9, 1)
+                                        : random_.Uniform();
+    scene_[kLambdaI] = SmithLambda();
+    scene_[kLambdaO] = random_.Chance(0.1) ? scene_[kLambdaI] : SmithLambda();
     scene_[kU1] = U();
     scene_[kU2] = U();
     scene_[kU3] = U();
@@ -331,6 +346,20 @@ class SceneMaker {
     return random_.LogUniform(0.25, 4);
   }
 
+  // Silver to germanium, and the indices of dielectrics.
+  double ConductorIndex() {
+    const double u = random_.Uniform();
+    return u < 0.4 ? scene_[kEta] : u < 0.45 ? 0.05 : random_.LogUniform(0.05, 10);
+  }
+
+  double SmithLambda() {
+    const double u = random_.Uniform();
+    return u < 0.08   ? 0
+           : u < 0.11 ? std::numeric_limits<float>::max()
+           : u < 0.25 ? random_.LogUniform(1e-45, 1e38)
+                      : random_.LogUniform(1e-6, 1e6);
+  }
+
   double U() {
     constexpr double kEdges[] = {0, 0x1p-32, 0x1p-24, 0.125, 0.25, 0.5, 0.75, kLargestU};
     const double u = random_.Uniform();
@@ -396,7 +425,7 @@ class SceneMaker {
   void DrawCosines() {
     const double eta = scene_[kEta];
     double i = Cosine(), o = Cosine();
-    if (random_.Chance(0.3)) i = random_.Sign() * SpecialCosine(eta);
+    if (random_.Chance(0.3)) i = random_.Sign() * SpecialCosine(shape_.has[kN] ? scene_[kN] : eta);
     const double u = random_.Uniform();
     if (u < 0.6) {
       // i.h and o.h of a refraction.
@@ -537,6 +566,11 @@ constexpr double kGridMeans[] = {0, 0.1, -1, 3, -16};
 constexpr double kGridExponents[] = {0, 0.5, 1, 2, 10, 100, 1e3, 1e4, 1e6, 1e8, 1e10, 2e10};
 constexpr double kGridEtas[] = {1,    1.0003, 1.33, 1.5,      1.51,     2.42,     4,     1 / 1.0003, 1 / 1.33,
                                 0.66, 0.41,   0.25, 1 + 1e-7, 1 - 1e-7, 1 + 1e-5, 1.001, 0.999,      1.1};
+constexpr double kGridIndices[] = {0.05, 0.1, 0.25, 0.5, 0.9, 1 - 1e-7, 1, 1 + 1e-5, 1.5, 2.5, 4, 10};
+constexpr double kGridKappas[] = {0, 1e-20, 1e-7, 1e-4, 0.01, 0.3, 1, 3, 10, 20};
+constexpr double kGridF0[] = {0, 1e-6, 0.04, 0.3, 0.9, 1 - 1e-7, 1};
+constexpr double kGridLambdas[] = {0,   1e-40, 1e-8, 1e-3,           0.1, 0.5, 1, 3, 100,
+                                   1e7, 1e19,  1e37, 0x1.fffffep+127};
 constexpr double kGridU[] = {0,   0x1p-32, 0x1p-24, 0.05, 0.125, 0.25,     0.4,
                              0.5, 0.7,     0.75,    0.9,  0.999, kLargestU};
 
@@ -606,6 +640,11 @@ Scene GridScene(const Shape& shape, Digits& digits) {
   take(kMeanY, kGridMeans);
   take(kExponent, kGridExponents);
   take(kEta, kGridEtas);
+  take(kN, kGridIndices);
+  take(kKappa, kGridKappas);
+  take(kF0, kGridF0);
+  take(kLambdaI, kGridLambdas);
+  take(kLambdaO, kGridLambdas);
   take(kU1, kGridU);
   take(kU2, kGridU);
   take(kU3, kGridU);
@@ -615,7 +654,12 @@ Scene GridScene(const Shape& shape, Digits& digits) {
   if (shape.has[kA]) scene[kA] = 0x1p-8 * static_cast<double>(digits.Take(4097));
   Vector wi{0, 0, 1}, facing{0, 0, 1};
   if (shape.has[kVx] || shape.has[kWix]) wi = GridDirection(digits);
-  if (shape.has[kMx] || shape.pairs) facing = GridNormal(shape, scene, digits);
+  const bool rough = shape.has[kAlpha] || shape.has[kAlphaX] || shape.has[kExponent];
+  if (shape.has[kMx] && shape.has[kVx] && !rough) {
+    facing = GridDirection(digits);
+  } else if (shape.has[kMx] || shape.pairs) {
+    facing = GridNormal(shape, scene, digits);
+  }
   if (wi.z < 0 && shape.has[kWix]) facing = -facing;
   wi = RoundedToFloats(kWix, wi);
   facing = RoundedToFloats(kMx, facing);
@@ -643,6 +687,9 @@ class ExtremeMaker {
     RandomNumbers();
     Rational();
     OffCentre();
+    Conductor();
+    Azimuths();
+    Cavity();
     return std::move(cases_);
   }
 
@@ -657,6 +704,11 @@ class ExtremeMaker {
     Scene scene{};
     SetAlpha(scene, 0.3, 0.3);
     scene[kEta] = 1.5;
+    scene[kN] = 0.2;
+    scene[kKappa] = 3;
+    scene[kF0] = 0.04;
+    scene[kLambdaI] = 0.5;
+    scene[kLambdaO] = 2;
     scene[kU1] = 0.4;
     scene[kU2] = 0.1;
     scene[kU3] = 0.5;
@@ -1046,6 +1098,80 @@ class ExtremeMaker {
     }
   }
 
+  // Dielectrics as conductors, their critical angles and indices near 1; weak and strong absorption; silver.
+  void Conductor() {
+    if (!shape_.has[kN]) return;
+    Scene scene = Base();
+    for (const double n :
+         {0.05, 0.25, 0.5, 1 / 1.5, 0.999, 1 - 0x1p-23, 1.0, 1 + 0x1p-23, 1.0003, 1.5, 4.0, 10.0}) {
+      scene[kN] = static_cast<float>(n);
+      for (const double kappa : {0.0, 1e-42, 1e-20, 1e-10, 1e-7, 1e-4, 0.1, 1.0, 10.0, 20.0}) {
+        scene[kKappa] = static_cast<float>(kappa);
+        std::vector<double> cosines = {1, 0.9, 0.5, 0.1, 1e-3, 1e-7, 1e-38, 1e-42, 0, -0.7};
+        if (n < 1) {
+          const double critical = std::sqrt((1 - scene[kN]) * (1 + scene[kN]));
+          for (int steps = -3; steps <= 3; ++steps) cosines.push_back(Floats(critical, steps));
+          cosines.push_back(0.5 * critical);
+        }
+        for (const double cosine : cosines) {
+          scene[kCosI] = cosine;
+          Add("conductor", "k = 0 to 20, n = 0.05 to 10", scene);
+        }
+      }
+    }
+  }
+
+  // Azimuths equal, opposite and on either side of both, and of normal incidence; Lambda of every size.
+  void Azimuths() {
+    if (!shape_.has[kWix] || shape_.has[kWiz]) return;
+    Scene scene = Base();
+    const double half = 0.5 * kTwoPi;
+    for (const double from : {0.0, 1.0, 0.5 * half, 3.0, half, -3.0, -0.5 * half, -1e-4}) {
+      for (const double by :
+           {0.0, 1e-7, 1e-3, 0.25 * half, 0.5 * half, 3.1, half, half + 1e-6, half + 0.3, 1.9 * half}) {
+        for (const double sine : {1.0, 0.3, 1e-3, 1e-20, 1e-42, 0.0}) {
+          scene[kWix] = sine * std::cos(from);
+          scene[kWiy] = sine * std::sin(from);
+          scene[kWox] = 0.8 * std::cos(from + by);
+          scene[kWoy] = 0.8 * std::sin(from + by);
+          for (const double lambda_i : {0.0, 0.3, 1e30, 0x1.fffffep+127}) {
+            for (const double lambda_o : {0.0, 2.0, 0x1.fffffep+127}) {
+              scene[kLambdaI] = lambda_i;
+              scene[kLambdaO] = lambda_o;
+              Add("azimuth-wrap", "differences of 0 to 2 pi", scene);
+            }
+          }
+        }
+      }
+    }
+  }
+
+  // Views and normals within floats of v.m = 2 mz vz, where the two branches of the V-cavity form meet.
+  void Cavity() {
+    if (!shape_.has[kVx] || !shape_.has[kMx] || Has({kAlpha, kAlphaX, kExponent})) return;
+    Scene scene = Base();
+    for (const double mz : {0.99, 0.8, 0.5, 0.2, 0.01}) {
+      for (const double phi : {0.0, 0.6, 1.9, 3.0}) {
+        const Vector m = Single(FromCosine(mz, phi));
+        for (const double azimuth : {0.0, 0.3, 2.0, 4.0}) {
+          // tan(theta) (cos(azimuth) m.x + sin(azimuth) m.y) = m.z
+          const double along = std::cos(azimuth) * m.x + std::sin(azimuth) * m.y;
+          if (along <= 0) continue;
+          const double tangent = m.z / along;
+          for (int steps = -3; steps <= 3; ++steps) {
+            for (const double side : {1.0, -1.0}) {
+              Vector v = side * Single(FromSlopes(tangent * std::cos(azimuth), tangent * std::sin(azimuth)));
+              v.z = Floats(v.z, steps);
+              Put(scene, kVx, v);
+              Put(scene, kMx, m);
+              Add("vcavity-kink", "v.m = 2 mz vz, within floats", scene);
+            }
+          }
+        }
+      }
+    }
+  }
+
   // a = 1.6 +- a few floats, where Walter's rational G1 reaches 1.
   void Rational() {
     if (!shape_.has[kVx]) return;
@@ -1111,7 +1237,7 @@ Point Perturbed(std::size_t kernel, const Point& in, Random& random, Values valu
   for (int change = 0; change < changes; ++change) {
     const int k = random.Index(static_cast<int>(shape.count));
     const Field field = shape.field[k];
-    if (!IsDirection(field)) {
+    if (!IsDirection(field) || !shape.has[field - field % 3 + 2]) {
       const double x =
           random.Chance(0.6) ? step(out[k]) : out[k] * (1 + random.Sign() * random.LogUniform(1e-7, 0.1));
       out[k] = Fit(field, x, values);

@@ -12,9 +12,11 @@
 #define HWY_TARGET_INCLUDE "reassociated_test.cc"
 #include "hwy/foreach_target.h"  // must stand before highway.h
 #include "microlane/beckmann-inl.h"
+#include "microlane/conductor-inl.h"
 #include "microlane/fresnel-inl.h"
 #include "microlane/ggx-inl.h"
 #include "microlane/half_vector-inl.h"
+#include "microlane/masking-inl.h"
 #include "microlane/phong-inl.h"
 #include "src/distribution_kernels-inl.h"
 #include "src/rough_dielectric_kernels-inl.h"
@@ -54,6 +56,52 @@ struct FresnelCase {
   template <Accuracy A, class D>
   static void Eval(D d, const Options<D>&, const Outputs<D>& out, Vec<D> cos_i, Vec<D> eta) {
     out.v0 = FresnelDielectric<kPart, A>(d, cos_i, eta);
+  }
+};
+struct ConductorCase {
+  static constexpr std::string_view kId = "fresnel.conductor";
+  template <Accuracy A, class D, class... V>
+  static void Eval(D d, const Options<D>&, const Outputs<D>& out, V... in) {
+    out.v0 = FresnelConductor<A>(d, in...);
+  }
+};
+struct SchlickCase {
+  static constexpr std::string_view kId = "fresnel.schlick";
+  template <Accuracy A, class D, class... V>
+  static void Eval(D d, const Options<D>&, const Outputs<D>& out, V... in) {
+    out.v0 = FresnelSchlick<A>(d, in...);
+  }
+};
+struct VCavityCase {
+  static constexpr std::string_view kId = "masking.v_cavity";
+  template <Accuracy A, class D, class... V>
+  static void Eval(D d, const Options<D>&, const Outputs<D>& out, V... in) {
+    out.v0 = VCavityG1<A>(d, in...);
+  }
+};
+struct SchlickSmithCase {
+  static constexpr std::string_view kId = "masking.schlick_smith";
+  template <Accuracy A, class D, class... V>
+  static void Eval(D d, const Options<D>&, const Outputs<D>& out, V... in) {
+    out.v0 = SchlickSmithG1<A>(d, in...);
+  }
+};
+struct KelemenCase {
+  static constexpr std::string_view kId = "masking.kelemen";
+  template <Accuracy A, class D, class... V>
+  static void Eval(D d, const Options<D>&, const Outputs<D>& out, V... in) {
+    out.v0 = KelemenG1<A>(d, in...);
+  }
+};
+template <JointForm kForm>
+struct JointCase {
+  static constexpr std::string_view kId = kForm == JointForm::kHeight ? "masking.height_correlated"
+                                          : kForm == JointForm::kDirection
+                                              ? "masking.direction_correlated"
+                                              : "masking.height_direction_correlated";
+  template <Accuracy A, class D, class... V>
+  static void Eval(D d, const Options<D>&, const Outputs<D>& out, V... in) {
+    out.v0 = JointG2<kForm, A>(d, in...);
   }
 };
 struct HalfReflectionCase {
@@ -154,7 +202,9 @@ Cases CasesOnTarget() {
       NormalCase<Phong, phong, NormalQuantity::kG1, RoughnessKind::kExponent>,
       NormalCase<Phong, phong, NormalQuantity::kSampleNormal, RoughnessKind::kExponent>,
       FresnelCase<FresnelPart::kUnpolarised>, FresnelCase<FresnelPart::kS>, FresnelCase<FresnelPart::kP>,
-      FresnelCase<FresnelPart::kTransmittance>, HalfReflectionCase, HalfRefractionCase, HalfJacobianCase,
+      FresnelCase<FresnelPart::kTransmittance>, ConductorCase, SchlickCase, VCavityCase, SchlickSmithCase,
+      KelemenCase, JointCase<JointForm::kHeight>, JointCase<JointForm::kDirection>,
+      JointCase<JointForm::kHeightDirection>, HalfReflectionCase, HalfRefractionCase, HalfJacobianCase,
       HalfJacobianCosCase, ReflectCase, RefractCase, DielectricCase<Ggx, ggx, kEval>,
       DielectricCase<Ggx, ggx, kEvalReflection>, DielectricCase<Ggx, ggx, kEvalTransmission>,
       DielectricCase<Ggx, ggx, kEvalSeparable>, DielectricCase<Ggx, ggx, kPdf>,

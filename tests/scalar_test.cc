@@ -91,6 +91,17 @@ constexpr ScalarBound kScalarBounds[] = {
     {"fresnel.dielectric_transmittance", 0.51, 0.51},
     {"fresnel.dielectric_s", 0.51, 2.5},
     {"fresnel.dielectric_p", 0.51, 2.5},
+    {"fresnel.conductor", 0.51, 0.51},
+    {"fresnel.schlick", 0.51, 3},
+    {"math.azimuth_difference", 0.51, 2},
+    {"masking.v_cavity", 0.51, 0.51},
+    {"masking.implicit", 0, 0},
+    {"masking.schlick_smith", 0.51, 3},
+    {"masking.kelemen", 0.51, 0.51},
+    {"masking.separable", 0.51, 2.5},
+    {"masking.height_correlated", 0.51, 2},
+    {"masking.direction_correlated", 0.51, 3.5},
+    {"masking.height_direction_correlated", 0.51, 2.5},
     {"half_vector.reflection", 0.51, 0.51},
     {"half_vector.reflection_jacobian", 0.51, 0.51},
     {"half_vector.reflection_jacobian_cos", 0.51, 0.51},
@@ -352,6 +363,11 @@ class Generator {
     if (name == "mean_x" || name == "mean_y") return Chance(0.1) ? 0 : Sign() * LogUniform(1e-4, 16);
     if (name == "exponent") return exponent_;
     if (name == "eta") return eta_;
+    if (name == "n") return Chance(0.4) ? eta_ : static_cast<float>(LogUniform(0.05, 10));
+    if (name == "kappa") return Chance(0.2) ? 0 : LogUniform(Chance(0.2) ? 1e-30 : 1e-4, 20);
+    if (name == "f0") return Chance(0.2) ? 0 : Chance(0.2) ? 1 : LogUniform(1e-9, 1);
+    if (name == "Lambda_i" || name == "Lambda_o")
+      return Chance(0.1) ? 0 : LogUniform(Chance(0.2) ? 1e-44 : 1e-4, Chance(0.2) ? 1e38 : 1e4);
     if (name == "u1" || name == "u2" || name == "u3") return Random();
     if (name == "x") return Chance(0.2) ? Sign() * LogUniform(1e-20, 1) : -104 + 192 * Uniform();
     if (name == "a") return Chance(0.05) ? 0 : LogUniform(Chance(0.1) ? 1e-44 : 1e-5, Chance(0.5) ? 10 : 1e4);

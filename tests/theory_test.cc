@@ -248,6 +248,118 @@ TEST(Masking, ApproximateFormsMissTheProjectedAreaByLittle) {
   }
 }
 
+// Heitz 2014, Table 3: int D <v.m> G1 = cos (Eq. 14), which normalises the visible normals (Eq. 18), and the
+// weak white furnace (Eqs. 36, 37) with wo reflected at each node, hold for V-cavities and for none of the
+// others.
+TEST(Masking, TableOfPhysicallyBasedForms) {
+  struct Form {
+    std::string_view id;
+    bool physical;
+  };
+  for (const Form& form : {Form{"masking.v_cavity", true}, Form{"masking.implicit", false},
+                           Form{"masking.schlick_smith", false}, Form{"masking.kelemen", false}}) {
+    const std::string id(form.id);
+    Tally tally(id + " on Eqs. 14, 18, 36, 37");
+    for (const auto& make : {Ggx, Beckmann}) {
+      for (const float alpha : {0.1f, 0.5f, 1.0f}) {
+        const Distribution distribution = make(alpha, alpha);
+        double largest = 0;
+        for (const double theta : {0.0, 45.0, 80.0}) {
+          const Direction v = Spherical(Radians(theta), 0.4);
+          const NormalNodes nodes = NormalsOnSide(v, alpha, alpha, Side::kFacing, 512, 256);
+          const std::size_t n = nodes.size();
+          const auto masking = [&](const DirectionColumns<double>& m) {
+            return form.id == "masking.schlick_smith" ? RunOne<double>(id, n, {}, v, m, double{alpha})
+                                                      : RunOne<double>(id, n, {}, v, m);
+          };
+          const DirectionColumns<double> wo = RunDirection<double>("reflect", n, {}, v, nodes.m);
+          const DirectionColumns<double> h = RunDirection<double>("half_vector.reflection", n, {}, v, wo);
+          const Column<double> jacobian = RunOne<double>("half_vector.reflection_jacobian", n, {}, v, wo);
+          const Column<double> density = RunOne<double>(distribution.Id("D"), n, {}, nodes.m, distribution);
+          const Column<double> density_h = RunOne<double>(distribution.Id("D"), n, {}, h, distribution);
+          const Column<double> g1 = masking(nodes.m), g1_h = masking(h);
+          double area = 0, furnace = 0;
+          for (std::size_t i = 0; i < n; ++i) {
+            area += density[i] * nodes.solid_angle[i] * Dot(v, nodes.m[i]) * g1[i];
+            // A jacobian of 0: wi = -wo, of which no solid angle is seen.
+            if (jacobian[i] > 0) {
+              furnace += density_h[i] * g1_h[i] / (4 * v.z) * nodes.solid_angle[i] / jacobian[i];
+            }
+          }
+          const double miss = area / v.z - 1, furnace_miss = furnace - 1;
+          std::printf("[points] %s %s %g degrees: Eq. 14 off by %+.3g, Eq. 36 by %+.3g\n", id.c_str(),
+                      distribution.Text().c_str(), theta, miss, furnace_miss);
+          const auto where = [&] { return distribution.Text() + Text(" %g degrees", theta); };
+          // Quadrature across the kink of V-cavities.
+          if (form.physical) tally.Add(miss, 1e-5, where);
+          tally.Add(furnace_miss - miss, 2e-4 * (1 + std::abs(miss)), where);
+          largest = std::max(largest, std::abs(miss));
+        }
+        if (!form.physical) {
+          EXPECT_GT(largest, 4e-3) << id << " " << distribution.Text()
+                                   << " should not conserve the projected area";
+        }
+      }
+    }
+  }
+}
+
+// Heitz 2014, Eqs. 98-101: the same either way, no more than the lesser G1, more with more correlation; Eq.
+// 101 is Eq. 99 where lambda = 1, and leaves no shadowing of what is seen (the hotspot) where the azimuths
+// agree.
+TEST(Masking, JointFormsAreReciprocalAndOrderedByTheirCorrelation) {
+  ForEachLaneType([](auto lane, Accuracy accuracy, const std::string& name) {
+    using T = decltype(lane);
+    const Mode mode{accuracy};
+    const std::string_view ids[] = {"masking.separable", "masking.height_correlated",
+                                    "masking.direction_correlated", "masking.height_direction_correlated"};
+    double declared = 1e-15;
+    for (const std::string_view id : ids) declared = std::max(declared, DeclaredError<T>(id, accuracy));
+    Tally reciprocity("G2(i, o) = G2(o, i), " + name), least("G2 / min(G1) at most 1, " + name);
+    Tally equation("1/G2 of Eq. 101, " + name), hotspot("G2 = min(G1) at phi = 0, " + name);
+    for (const float lambda_i : {0.0f, 1e-6f, 0.2f, 1.0f, 30.0f, 1e6f}) {
+      for (const float lambda_o : {0.0f, 1e-3f, 0.5f, 1.0f, 7.0f, 1e6f}) {
+        for (const double from : {0.3, 3.0, -3.0}) {
+          for (const double by : {0.0, 1e-3, 1.0, 3.14, 3.5, 6.2}) {
+            const double ix = static_cast<float>(std::cos(from)), iy = static_cast<float>(std::sin(from));
+            // The same azimuth where by = 0, exactly.
+            const double ox = by == 0 ? 0.5 * ix : static_cast<float>(0.4 * std::cos(from + by));
+            const double oy = by == 0 ? 0.5 * iy : static_cast<float>(0.4 * std::sin(from + by));
+            const auto where = [&] {
+              return Text("Lambda %g %g", lambda_i, lambda_o) + Text(" azimuths %g %g", from, by);
+            };
+            double g2[4];
+            for (int k = 0; k < 4; ++k) {
+              const bool azimuths = k >= 2;
+              const double i = lambda_i, o = lambda_o;
+              g2[k] = azimuths ? RunOne<T>(ids[k], 1, mode, i, o, ix, iy, ox, oy)[0]
+                               : RunOne<T>(ids[k], 1, mode, i, o)[0];
+              const double back = azimuths ? RunOne<T>(ids[k], 1, mode, o, i, ox, oy, ix, iy)[0]
+                                           : RunOne<T>(ids[k], 1, mode, o, i)[0];
+              reciprocity.AddRelative(back, g2[k], 2 * declared, where);
+            }
+            const double greater = std::max(lambda_i, lambda_o), lesser = std::min(lambda_i, lambda_o);
+            for (const double g : g2) least.Add(std::max(0.0, g * (1 + greater) - 1), 2 * declared, where);
+            EXPECT_LE(g2[0], g2[1] * (1 + 2 * declared)) << where();
+            EXPECT_LE(g2[1], g2[3] * (1 + 2 * declared)) << where();
+            EXPECT_LE(g2[0], g2[2] * (1 + 2 * declared)) << where();
+            const double phi = std::atan2(std::abs(ix * oy - iy * ox), ix * ox + iy * oy);
+            const double wrapped = by > kTestPi ? 2 * kTestPi - by : by;
+            EXPECT_NEAR(phi, wrapped, 1e-6) << where();
+            const double lambda = 4.41 * phi / (4.41 * phi + 1);
+            equation.AddRelative(1 / g2[1], 1 + greater + lesser, 2 * declared, where);
+            equation.AddRelative(1 / g2[3], 1 + greater + lambda * lesser, 2 * declared, where);
+            if (by == 0) {
+              for (const double g : {g2[2], g2[3]})
+                hotspot.AddRelative(g, 1 / (1 + greater), declared, where);
+            }
+          }
+        }
+      }
+    }
+  });
+}
+
 // Heitz 2014, Eq. 36 with the normals as nodes: wo is reflected at each, and half vector, its Jacobian, D and
 // G1 are then taken of wi and wo.
 TEST(WeakWhiteFurnace, ReflectsEverything) {

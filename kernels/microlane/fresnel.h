@@ -1,4 +1,4 @@
-// Fresnel factors of a dielectric interface in batches.
+// Fresnel factors of dielectrics and conductors in batches.
 //
 // All functions work on n lanes of float or double and are thread-safe. Errors are those that the kernel list
 // declares for the id named with each function; NaN in gives NaN out in that lane. cos_i is the cosine
@@ -36,6 +36,23 @@ void DielectricS(std::size_t n, const T* cos_i, ParameterOf<T> eta, T* reflectan
 template <class T>
 void DielectricP(std::size_t n, const T* cos_i, ParameterOf<T> eta, T* reflectance,
                  Accuracy accuracy = Accuracy::kStandard);
+
+// Reflectance of unpolarised light by a conductor of index n + i kappa over that of the incident side, n from
+// 0.05 to 10, kappa from 0 (a dielectric) to 20. fresnel.conductor.
+template <class T>
+void Conductor(std::size_t n, const T* cos_i, ParameterOf<T> index, ParameterOf<T> kappa, T* reflectance,
+               Accuracy accuracy = Accuracy::kStandard);
+
+// The same of `channels` wavelengths: index, kappa and the output of each.
+template <class T>
+void Conductor(std::size_t n, const T* cos_i, std::size_t channels, const Parameter<T>* index,
+               const Parameter<T>* kappa, T* const* reflectance, Accuracy accuracy = Accuracy::kStandard);
+
+// Schlick's approximation from the reflectance at normal incidence, f0 + (1 - f0) (1 - |cos_i|)^5.
+// fresnel.schlick.
+template <class T>
+void Schlick(std::size_t n, const T* cos_i, ParameterOf<T> f0, T* reflectance,
+             Accuracy accuracy = Accuracy::kStandard);
 
 }  // namespace microlane::fresnel
 

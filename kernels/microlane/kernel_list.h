@@ -82,6 +82,11 @@ inline constexpr Input kInputs[] = {
     {"mean_y", -16, 16, "mean slope along y"},
     {"exponent", 0, 2e10, "Phong exponent alpha_p"},
     {"eta", 0.25, 4, "index of the transmitted over the incident side"},
+    {"n", 0.05, 10, "real part of the index of a conductor over that of the incident side"},
+    {"kappa", 0, 20, "imaginary part of that index"},
+    {"f0", 0, 1, "reflectance at normal incidence"},
+    {"Lambda_i", 0, 0x1.fffffep+127, "Smith's Lambda of wi"},
+    {"Lambda_o", 0, 0x1.fffffep+127, "Smith's Lambda of wo"},
     {"u1", 0, 1, "uniform random number in [0, 1)"},
     {"u2", 0, 1, "uniform random number in [0, 1)"},
     {"u3", 0, 1, "uniform random number in [0, 1)"},
@@ -93,6 +98,8 @@ inline constexpr Output kOutputs[] = {
     {"D", Metric::kUlp, "1/sr"},
     {"Lambda", Metric::kUlp, "1"},
     {"G1", Metric::kUlp, "1"},
+    {"G2", Metric::kUlp, "1"},
+    {"phi", Metric::kUlp, "rad"},
     {"F", Metric::kUlp, "1"},
     {"T", Metric::kUlp, "1"},
     {"hx", Metric::kUlp, "1"},
@@ -117,6 +124,13 @@ inline constexpr Output kOutputs[] = {
 
 inline constexpr std::string_view kFresnelNote =
     "|cos_i| is used; 1 under total internal reflection; 0 at eta = 1.";
+inline constexpr std::string_view kMaskingSides =
+    "v of either side, -v in place of v below; 0 where v.m and vz differ in sign or either is 0.";
+inline constexpr std::string_view kJointNote =
+    "Lambda from 0 to the largest float; sidedness is left to the caller.";
+inline constexpr std::string_view kDirectionNote =
+    "lambda = 4.41 phi/(4.41 phi + 1) (van Ginneken 1998), phi as math.azimuth_difference: within [0, pi], and 0 where an "
+    "azimuth is undefined. Lambda from 0 to the largest float; sidedness is left to the caller.";
 inline constexpr std::string_view kEvalNote =
     "f |cos(theta_o)|. Same signs of wiz and woz: reflection; opposite: transmission; 0 where either is 0, where a "
     "sidedness test (Walter 7) fails, or under total internal reflection. Transmission carries eta^2 for radiance "
@@ -139,11 +153,15 @@ inline constexpr Kernel kComponentKernels[] = {
     {"math.neg_log1m", "u1", "y", "-log(1 - u), used by Walter 2007 Eq. 28", "u in [0, 1).", false, {1, 4, 11, 8, 2}},
     {"math.sincos_2pi", "u1", "sin cos", "sin(2 pi u), cos(2 pi u), used by Walter 2007 Eq. 29", "", false, {1, 4, 256, 8, 2}},
     {"math.erfcx_defect", "a", "y", "1 - sqrt(pi) a exp(a^2) erfc(a): Heitz 2014 Eq. 69 is Lambda = y exp(-a^2) / (2 sqrt(pi) a)", "", false, {1, 4, 1600, 8, 13}},
+    {"math.azimuth_difference", "wix wiy wox woy", "phi", "atan2(|wi x wo|, wi.wo) in the plane, used by Heitz 2014 Eqs. 100, 101", "In [0, pi]; 0 where an azimuth is undefined.", false, {1, 4, 64, 8, 4}},
 
     {"fresnel.dielectric", "cos_i | eta", "F", "Walter 2007 Eq. 22", kFresnelNote, false, {1, 4, 2900, 8, 13}},
     {"fresnel.dielectric_transmittance", "cos_i | eta", "T", "1 - F, Walter 2007 Eq. 22", "|cos_i| is used; 0 under total internal reflection; 1 at eta = 1.", false, {1, 4, 2100, 8, 8}},
     {"fresnel.dielectric_s", "cos_i | eta", "F", "Walter 2007 Eq. 22, first factor: ((g - c)/(g + c))^2", kFresnelNote, false, {1, 4, 3000, 8, 10}},
     {"fresnel.dielectric_p", "cos_i | eta", "F", "Walter 2007 Eq. 22, the part polarised in the plane of incidence: ((eta^2 c - g)/(eta^2 c + g))^2", kFresnelNote, false, {1, 4, 1, 8, 18}},
+
+    {"fresnel.conductor", "cos_i | n kappa", "F", "Meneveaux 2015 section 2.2; Kelemen 2001 appendix", "Unpolarised; index n + i kappa over that of the incident side; |cos_i| is used. At kappa = 0 the dielectric of eta = n.", false, {1, 4, 4096, 8, 16}},
+    {"fresnel.schlick", "cos_i | f0", "F", "Schlick 1994: f0 + (1 - f0) (1 - |cos_i|)^5", "|cos_i| above 1 counts as 1.", false, {1, 4, 16, 8, 4}},
 
     {"half_vector.reflection", "wix wiy wiz wox woy woz", "hx hy hz", "Walter 2007 Eq. 13", "0 where wi = -wo; sign(0) = 1.", false, {1, 4, 1800, 8, 4}},
     {"half_vector.reflection_jacobian", "wix wiy wiz wox woy woz", "jacobian", "Walter 2007 Eq. 14, first form |o.h|/|h_r|^2", "0 where wi = -wo. Double lanes do not make up for what wo.h_r loses to cancellation near there.", false, {1, 4, 1, 8, 0x1p22}},
@@ -154,6 +172,15 @@ inline constexpr Kernel kComponentKernels[] = {
 
     {"reflect", "wix wiy wiz mx my mz", "wox woy woz", "Walter 2007 Eq. 39, as 2 (i.m) m - i", "", false, {1, 4, 3, 8, 2.5}},
     {"refract", "wix wiy wiz mx my mz | eta", "wox woy woz", "Walter 2007 Eq. 40", "sign(i.n) is sign(wiz), sign(0) = 1; 0 under total internal reflection. Double lanes do not make up for the cancellation of g^2 at the critical angle.", false, {1, 4, 1100, 8, 0x1p17}},
+
+    {"masking.v_cavity", "vx vy vz mx my mz", "G1", "Heitz 2014 Eq. 49; physically based", "min(1, 2 mz |vz| / |v.m|). v of either side, -v in place of v below; 0 where v.m and vz differ in sign or either is 0, and where mz <= 0. Satisfies the weak white furnace with every distribution of normals.", false, {1, 4, 1100, 8, 2}},
+    {"masking.implicit", "vx vy vz mx my mz", "G1", "Heitz 2014 Eq. 56; not physically based", kMaskingSides, false, {1, 1, 1, 1, 1}},
+    {"masking.schlick_smith", "vx vy vz mx my mz | alpha", "G1", "Heitz 2014 section 4.3, Schlick 1994; not physically based", "c/(c (1 - k) + k), c = |vz|, k = alpha sqrt(2/pi). v of either side; 0 where v.m and vz differ in sign or either is 0.", false, {1, 4, 1200, 8, 4}},
+    {"masking.kelemen", "vx vy vz mx my mz", "G1", "Heitz 2014 Eq. 59; not physically based", "|vz|/|v.m|, above 1 where |v.m| < |vz|, the largest finite number where it is larger. v of either side; 0 where v.m and vz differ in sign or either is 0.", false, {1, 4, 1100, 8, 2}},
+    {"masking.separable", "Lambda_i Lambda_o", "G2", "Heitz 2014 Eq. 98", kJointNote, false, {1, 4, 2200, 8, 4}},
+    {"masking.height_correlated", "Lambda_i Lambda_o", "G2", "Heitz 2014 Eq. 99", kJointNote, false, {1, 4, 1200, 8, 3}},
+    {"masking.direction_correlated", "Lambda_i Lambda_o wix wiy wox woy", "G2", "Heitz 2014 Eq. 100", kDirectionNote, false, {1, 4, 2200, 8, 6}},
+    {"masking.height_direction_correlated", "Lambda_i Lambda_o wix wiy wox woy", "G2", "Heitz 2014 Eq. 101", kDirectionNote, false, {1, 4, 1200, 8, 4}},
 };
 
 // Distributions of normals, by their places in kNormalFamilies and kDielectricFamilies.

@@ -366,6 +366,72 @@ HWY_INLINE void SinCos2Pi(D d, Vec<D> u, Vec<D>& sin, Vec<D>& cos) {
   cos = hn::Xor(hn::IfThenElse(odd, s, c), cos_sign);
 }
 
+// Azimuths' difference from the sine and cosine of plane vectors: phi = turns pi/4 + atan(slope), |slope| <=
+// sqrt(2) - 1, where products of floats are exact in double lanes.
+struct AzimuthDifferenceOp {
+  template <class DD>
+  static HWY_INLINE void Run(DD dd, Vec<DD>& slope, Vec<DD>& turns, Vec<DD> ax, Vec<DD> ay, Vec<DD> bx,
+                             Vec<DD> by) {
+    Vec<DD> p, p_tail, q, q_tail;
+    TwoProduct(dd, ax, by, p, p_tail);
+    TwoProduct(dd, ay, bx, q, q_tail);
+    const Vec<DD> sine = hn::Abs(hn::Add(hn::Sub(p, q), hn::Sub(p_tail, q_tail)));
+    const Vec<DD> dot = hn::MulAdd(ax, bx, hn::Mul(ay, by)), cosine = hn::Abs(dot);
+    const auto steep = hn::Gt(sine, cosine);
+    const Vec<DD> high = hn::IfThenElse(steep, sine, cosine), low = hn::IfThenElse(steep, cosine, sine);
+    const auto middle = hn::Gt(low, hn::Mul(high, Const(dd, 0.41421356237309505)));
+    const Vec<DD> rise = hn::IfThenElse(middle, hn::Sub(low, high), low);
+    const Vec<DD> run = hn::IfThenElse(middle, hn::Add(low, high), high);
+    const Vec<DD> ratio = ZeroIf(hn::Eq(run, hn::Zero(dd)), hn::Div(rise, run));
+    const Vec<DD> eighth = hn::IfThenElseZero(middle, Const(dd, 1));
+    // From the quadrant's other axis, then from the other half turn.
+    slope = hn::IfThenElse(steep, hn::Neg(ratio), ratio);
+    turns = hn::IfThenElse(steep, hn::Sub(Const(dd, 2), eighth), eighth);
+    const auto behind = hn::Lt(dot, hn::Zero(dd));
+    slope = hn::IfThenElse(behind, hn::Neg(slope), slope);
+    turns = hn::IfThenElse(behind, hn::Sub(Const(dd, 4), turns), turns);
+  }
+};
+
+// The angle in [0, pi] between the azimuths of (ax, ay) and (bx, by); 0 where either vector is 0.
+template <Accuracy A, class D>
+HWY_INLINE Vec<D> AzimuthDifference(D d, Vec<D> ax, Vec<D> ay, Vec<D> bx, Vec<D> by) {
+  Vec<D> slope, turns;
+  InDouble2<AzimuthDifferenceOp>(d, slope, turns, ax, ay, bx, by);
+  const Vec<D> y = hn::Mul(slope, slope);
+  Vec<D> p;
+  if constexpr (A == Accuracy::kFast) {
+    // sollya: fpminimax((atan(sqrt(x))/sqrt(x)-1)/x, 2, [|24...|], [1b-60;0.17158], absolute): 2^-18.7 of
+    // atan
+    p = Polynomial(
+        d, y, {-0.333319842815399169921875, 0.19852156937122344970703125, -0.118430100381374359130859375});
+  } else if constexpr (kIsFloat<D>) {
+    // as above, degree 4: 2^-28.1
+    p = Polynomial(d, y,
+                   {-0.333333313465118408203125, 0.1999951899051666259765625, -0.1426365375518798828125,
+                    0.1074220836162567138671875, -6.44957125186920166015625e-2});
+  } else {
+    // as above, degree 11, [|53...|]: 2^-58.1
+    p = Polynomial(d, y,
+                   {-0.333333333333333314829616256247390992939472198486328125,
+                    0.1999999999999892141833157666042097844183444976806640625,
+                    -0.142857142855268237635613104430376552045345306396484375,
+                    0.1111111109590250112244547153750318102538585662841796875,
+                    -9.090908395633819083503368574383785016834735870361328125e-2,
+                    7.6922879147082456885442525162943638861179351806640625e-2,
+                    -6.66629638432653937041294510800515465438365936279296875e-2,
+                    5.877649178449824429737446962462854571640491485595703125e-2,
+                    -5.2221412931610811103411151634645648300647735595703125e-2,
+                    4.5176799880734384851077578559852554462850093841552734375e-2,
+                    -3.378176842132794843731602441039285622537136077880859375e-2,
+                    1.54879053811577856170078604236550745554268360137939453125e-2});
+  }
+  const Vec<D> atan = hn::MulAdd(hn::Mul(slope, y), p, slope);
+  // pi/4 in two parts.
+  return hn::MulAdd(turns, Const(d, kIsFloat<D> ? 0.785398185253143310546875 : 0.78539816339744828),
+                    hn::MulAdd(turns, Const(d, kIsFloat<D> ? -2.18556941e-8 : 3.06161699786838e-17), atan));
+}
+
 // The factor Q(t) of 1 - sqrt(pi) a erfcx(a) = t^2 Q(t), t = 1/(1 + 0.3 a), for a >= 0: smooth and positive,
 // so the product keeps its relative accuracy both where the left side tends to 1 and where it falls as 1/(2
 // a^2).

@@ -7,6 +7,7 @@
 #include "microlane/ggx.h"               // IWYU pragma: export
 #include "microlane/half_vector.h"       // IWYU pragma: export
 #include "microlane/kernel_list.h"       // IWYU pragma: export
+#include "microlane/masking.h"           // IWYU pragma: export
 #include "microlane/material.h"          // IWYU pragma: export
 #include "microlane/packets.h"           // IWYU pragma: export
 #include "microlane/phong.h"             // IWYU pragma: export

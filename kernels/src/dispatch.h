@@ -56,6 +56,7 @@ inline void Run(const KernelCode& code, Accuracy, const Call<double>& call, std:
 const FamilyFunction* MathTable();
 const FamilyFunction* FresnelTable();
 const FamilyFunction* HalfVectorTable();
+const FamilyFunction* MaskingTable();
 template <Normals kNormals>
 const FamilyFunction* NormalsTable();
 template <Normals kNormals>

@@ -3,6 +3,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "src/fresnel.cc"
 #include "hwy/foreach_target.h"  // must stand before highway.h
+#include "microlane/conductor-inl.h"
 #include "microlane/fresnel-inl.h"
 #include "src/batch-inl.h"
 
@@ -23,9 +24,27 @@ struct FresnelKernel {
   }
 };
 
+struct ConductorKernel {
+  static constexpr std::string_view kId = "fresnel.conductor";
+  template <Accuracy A, class D>
+  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, Vec<D> cos_i, Vec<D> n,
+                              Vec<D> kappa) {
+    out.v0 = FresnelConductor<A>(d, cos_i, n, kappa);
+  }
+};
+
+struct SchlickKernel {
+  static constexpr std::string_view kId = "fresnel.schlick";
+  template <Accuracy A, class D>
+  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, Vec<D> cos_i, Vec<D> f0) {
+    out.v0 = FresnelSchlick<A>(d, cos_i, f0);
+  }
+};
+
 FamilyCode FamilyOnTarget() {
   return Family<FresnelKernel<FresnelPart::kUnpolarised>, FresnelKernel<FresnelPart::kTransmittance>,
-                FresnelKernel<FresnelPart::kS>, FresnelKernel<FresnelPart::kP>>();
+                FresnelKernel<FresnelPart::kS>, FresnelKernel<FresnelPart::kP>, ConductorKernel,
+                SchlickKernel>();
 }
 
 }  // namespace
@@ -78,11 +97,43 @@ void DielectricP(std::size_t n, const T* cos_i, ParameterOf<T> eta, T* reflectan
       .template Run<KernelIndex("fresnel.dielectric_p")>(FresnelTable(), accuracy, n);
 }
 
-#define MICROLANE_INSTANTIATE(T)                                                              \
-  template void Dielectric(std::size_t, const T*, ParameterOf<T>, T*, Accuracy);              \
-  template void DielectricTransmittance(std::size_t, const T*, ParameterOf<T>, T*, Accuracy); \
-  template void DielectricS(std::size_t, const T*, ParameterOf<T>, T*, Accuracy);             \
-  template void DielectricP(std::size_t, const T*, ParameterOf<T>, T*, Accuracy);
+template <class T>
+void Conductor(std::size_t n, const T* cos_i, ParameterOf<T> index, ParameterOf<T> kappa, T* reflectance,
+               Accuracy accuracy) {
+  CallBuilder<T>()
+      .In(cos_i)
+      .In(index)
+      .In(kappa)
+      .Out(reflectance)
+      .template Run<KernelIndex("fresnel.conductor")>(FresnelTable(), accuracy, n);
+}
+
+template <class T>
+void Conductor(std::size_t n, const T* cos_i, std::size_t channels, const Parameter<T>* index,
+               const Parameter<T>* kappa, T* const* reflectance, Accuracy accuracy) {
+  for (std::size_t c = 0; c < channels; ++c) {
+    Conductor(n, cos_i, index[c], kappa[c], reflectance[c], accuracy);
+  }
+}
+
+template <class T>
+void Schlick(std::size_t n, const T* cos_i, ParameterOf<T> f0, T* reflectance, Accuracy accuracy) {
+  CallBuilder<T>()
+      .In(cos_i)
+      .In(f0)
+      .Out(reflectance)
+      .template Run<KernelIndex("fresnel.schlick")>(FresnelTable(), accuracy, n);
+}
+
+#define MICROLANE_INSTANTIATE(T)                                                                        \
+  template void Dielectric(std::size_t, const T*, ParameterOf<T>, T*, Accuracy);                        \
+  template void DielectricTransmittance(std::size_t, const T*, ParameterOf<T>, T*, Accuracy);           \
+  template void DielectricS(std::size_t, const T*, ParameterOf<T>, T*, Accuracy);                       \
+  template void DielectricP(std::size_t, const T*, ParameterOf<T>, T*, Accuracy);                       \
+  template void Conductor(std::size_t, const T*, ParameterOf<T>, ParameterOf<T>, T*, Accuracy);         \
+  template void Conductor(std::size_t, const T*, std::size_t, const Parameter<T>*, const Parameter<T>*, \
+                          T* const*, Accuracy);                                                         \
+  template void Schlick(std::size_t, const T*, ParameterOf<T>, T*, Accuracy);
 MICROLANE_INSTANTIATE(float)
 MICROLANE_INSTANTIATE(double)
 #undef MICROLANE_INSTANTIATE

@@ -42,8 +42,17 @@ struct ErfcxDefectKernel {
   }
 };
 
+struct AzimuthDifferenceKernel {
+  static constexpr std::string_view kId = "math.azimuth_difference";
+  template <Accuracy A, class D>
+  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, Vec<D> wix, Vec<D> wiy,
+                              Vec<D> wox, Vec<D> woy) {
+    out.v0 = AzimuthDifference<A>(d, wix, wiy, wox, woy);
+  }
+};
+
 FamilyCode FamilyOnTarget() {
-  return Family<ExpKernel, NegLog1mKernel, SinCos2PiKernel, ErfcxDefectKernel>();
+  return Family<ExpKernel, NegLog1mKernel, SinCos2PiKernel, ErfcxDefectKernel, AzimuthDifferenceKernel>();
 }
 
 }  // namespace

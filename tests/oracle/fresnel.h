@@ -1,5 +1,5 @@
-// Fresnel reflectance of a dielectric: Walter 2007, Eq. 22. eta is the index of the transmitted over the
-// incident side.
+// Fresnel reflectance of a dielectric, Walter 2007, Eq. 22, of a conductor, and Schlick's approximation. eta
+// is the index of the transmitted over the incident side.
 #ifndef MICROLANE_TESTS_ORACLE_FRESNEL_H_
 #define MICROLANE_TESTS_ORACLE_FRESNEL_H_
 
@@ -38,6 +38,43 @@ inline Real FresnelDielectricP(const Real& cos_i, const Real& eta) {
   if (g2 < 0) return 1;
   const Real g = sqrt(g2);
   return Square((eta * eta * c - g) / (eta * eta * c + g));
+}
+
+struct Complex {
+  Real re, im;
+};
+inline Complex operator+(const Complex& a, const Complex& b) { return {a.re + b.re, a.im + b.im}; }
+inline Complex operator-(const Complex& a, const Complex& b) { return {a.re - b.re, a.im - b.im}; }
+inline Complex operator*(const Complex& a, const Complex& b) {
+  return {a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re};
+}
+inline Real SquaredModulus(const Complex& a) { return a.re * a.re + a.im * a.im; }
+
+// The root in the first quadrant, for im >= 0. The lesser part follows from im = 2 re(root) im(root), as
+// Real's digits do not reach where kappa is subnormal.
+inline Complex Root(const Complex& a) {
+  const Real larger = sqrt((sqrt(SquaredModulus(a)) + abs(a.re)) / 2);
+  if (larger == 0) return {0, 0};
+  const Real lesser = a.im / (2 * larger);
+  return a.re < 0 ? Complex{lesser, larger} : Complex{larger, lesser};
+}
+
+// r_s = (c - g)/(c + g) and r_p = (N^2 c - g)/(N^2 c + g) for N = n + i kappa, g = sqrt(N^2 - s^2), s^2 = 1 -
+// c^2;
+// (|r_s|^2 + |r_p|^2)/2.
+inline Real FresnelConductor(const Real& cos_i, const Real& n, const Real& kappa) {
+  if (n == 1 && kappa == 0) return 0;
+  const Complex c{abs(cos_i), 0}, index{n, kappa}, index2 = index * index;
+  const Complex g = Root(index2 - Complex{1 - c.re * c.re, 0});
+  const Real s = SquaredModulus(c - g) / SquaredModulus(c + g);
+  const Real p = SquaredModulus(index2 * c - g) / SquaredModulus(index2 * c + g);
+  return (s + p) / 2;
+}
+
+// f0 + (1 - f0)(1 - c)^5.
+inline Real FresnelSchlick(const Real& cos_i, const Real& f0) {
+  const Real x = 1 - abs(cos_i);
+  return x > 0 ? f0 + (1 - f0) * pow(x, 5) : f0;
 }
 
 }  // namespace microlane::oracle

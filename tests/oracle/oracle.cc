@@ -10,6 +10,7 @@
 #include "oracle/fresnel.h"
 #include "oracle/ggx.h"
 #include "oracle/half_vector.h"
+#include "oracle/masking.h"
 #include "oracle/math.h"
 #include "oracle/phong.h"
 
@@ -141,6 +142,9 @@ constexpr Entry kEntries[] = {
      }},
     {"math.erfcx_defect", [](Call& call) { call.out[0] = ErfcxDefect(call.in[0]); }},
 
+    {"math.azimuth_difference",
+     [](Call& call) { call.out[0] = AzimuthDifference(call.in[0], call.in[1], call.in[2], call.in[3]); }},
+
     {"beckmann.G1_rational",
      [](Call& call) {
        call.out[0] = MakeNormals<Normals::kBeckmann, RoughnessKind::kAnisotropic>(call.in + 6)
@@ -160,6 +164,10 @@ constexpr Entry kEntries[] = {
      [](Call& call) { call.out[0] = 1 - FresnelDielectric(call.in[0], call.in[1]); }},
     {"fresnel.dielectric_s", [](Call& call) { call.out[0] = FresnelDielectricS(call.in[0], call.in[1]); }},
     {"fresnel.dielectric_p", [](Call& call) { call.out[0] = FresnelDielectricP(call.in[0], call.in[1]); }},
+
+    {"fresnel.conductor",
+     [](Call& call) { call.out[0] = FresnelConductor(call.in[0], call.in[1], call.in[2]); }},
+    {"fresnel.schlick", [](Call& call) { call.out[0] = FresnelSchlick(call.in[0], call.in[1]); }},
 
     {"half_vector.reflection",
      [](Call& call) {
@@ -188,6 +196,30 @@ constexpr Entry kEntries[] = {
     {"reflect", [](Call& call) { Store(Reflect(Direction(call.in), Direction(call.in + 3)), call.out); }},
     {"refract",
      [](Call& call) { Store(Refract(Direction(call.in), Direction(call.in + 3), call.in[6]), call.out); }},
+
+    {"masking.v_cavity",
+     [](Call& call) { call.out[0] = VCavityG1(Direction(call.in), Direction(call.in + 3)); }},
+    {"masking.implicit",
+     [](Call& call) { call.out[0] = ImplicitG1(Direction(call.in), Direction(call.in + 3)); }},
+    {"masking.schlick_smith",
+     [](Call& call) {
+       call.out[0] = SchlickSmithG1(Direction(call.in), Direction(call.in + 3), call.in[6]);
+     }},
+    {"masking.kelemen",
+     [](Call& call) { call.out[0] = KelemenG1(Direction(call.in), Direction(call.in + 3)); }},
+    {"masking.separable", [](Call& call) { call.out[0] = SeparableG2(call.in[0], call.in[1]); }},
+    {"masking.height_correlated",
+     [](Call& call) { call.out[0] = HeightCorrelatedG2(call.in[0], call.in[1]); }},
+    {"masking.direction_correlated",
+     [](Call& call) {
+       const Real phi = AzimuthDifference(call.in[2], call.in[3], call.in[4], call.in[5]);
+       call.out[0] = DirectionCorrelatedG2(call.in[0], call.in[1], phi);
+     }},
+    {"masking.height_direction_correlated",
+     [](Call& call) {
+       const Real phi = AzimuthDifference(call.in[2], call.in[3], call.in[4], call.in[5]);
+       call.out[0] = HeightDirectionCorrelatedG2(call.in[0], call.in[1], phi);
+     }},
 };
 
 struct Resolved {

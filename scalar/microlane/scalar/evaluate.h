@@ -14,6 +14,7 @@
 #include "microlane/scalar/fresnel.h"
 #include "microlane/scalar/ggx.h"
 #include "microlane/scalar/half_vector.h"
+#include "microlane/scalar/masking.h"
 #include "microlane/scalar/math.h"
 #include "microlane/scalar/phong.h"
 #include "microlane/scalar/rough_dielectric.h"
@@ -151,6 +152,13 @@ constexpr auto Entries() {
       Entry<Real>{"math.erfcx_defect",
                   [](const Real* in, Real* out, Transport) { out[0] = ErfcxDefect(in[0]); }},
 
+      Entry<Real>{"math.azimuth_difference",
+                  [](const Real* in, Real* out, Transport) {
+                    out[0] = AnyNan(in[0], in[1], in[2], in[3])
+                                 ? kNan<Real>
+                                 : static_cast<Real>(AzimuthDifference(in[0], in[1], in[2], in[3]));
+                  }},
+
       Entry<Real>{"beckmann.G1_rational",
                   [](const Real* in, Real* out, Transport) {
                     out[0] = Beckmann<Real>{in[6], in[7]}.G1Rational(Load(in), Load(in + 3));
@@ -179,6 +187,11 @@ constexpr auto Entries() {
                   [](const Real* in, Real* out, Transport) {
                     out[0] = OfCosine(in[0], in[1], &Fresnel::ReflectanceP);
                   }},
+
+      Entry<Real>{"fresnel.conductor", [](const Real* in, Real* out,
+                                          Transport) { out[0] = FresnelConductor(in[0], in[1], in[2]); }},
+      Entry<Real>{"fresnel.schlick",
+                  [](const Real* in, Real* out, Transport) { out[0] = FresnelSchlick(in[0], in[1]); }},
 
       Entry<Real>{"half_vector.reflection",
                   [](const Real* in, Real* out, Transport) {
@@ -210,6 +223,31 @@ constexpr auto Entries() {
                     using W = Wide<Real>;
                     const Vec3<Real> wi = Load(in);
                     Store(Narrow<Real>(Refract(Widen(wi), Widen(Load(in + 3)), W(in[6]), W(Side(wi)))), out);
+                  }},
+
+      Entry<Real>{"masking.v_cavity",
+                  [](const Real* in, Real* out, Transport) { out[0] = VCavityG1(Load(in), Load(in + 3)); }},
+      Entry<Real>{"masking.implicit",
+                  [](const Real* in, Real* out, Transport) { out[0] = ImplicitG1(Load(in), Load(in + 3)); }},
+      Entry<Real>{"masking.schlick_smith",
+                  [](const Real* in, Real* out, Transport) {
+                    out[0] = SchlickSmithG1(Load(in), Load(in + 3), in[6]);
+                  }},
+      Entry<Real>{"masking.kelemen",
+                  [](const Real* in, Real* out, Transport) { out[0] = KelemenG1(Load(in), Load(in + 3)); }},
+      Entry<Real>{"masking.separable",
+                  [](const Real* in, Real* out, Transport) { out[0] = SeparableG2(in[0], in[1]); }},
+      Entry<Real>{"masking.height_correlated",
+                  [](const Real* in, Real* out, Transport) { out[0] = HeightCorrelatedG2(in[0], in[1]); }},
+      Entry<Real>{"masking.direction_correlated",
+                  [](const Real* in, Real* out, Transport) {
+                    out[0] =
+                        DirectionCorrelatedG2(in[0], in[1], AzimuthDifference(in[2], in[3], in[4], in[5]));
+                  }},
+      Entry<Real>{"masking.height_direction_correlated",
+                  [](const Real* in, Real* out, Transport) {
+                    out[0] = HeightDirectionCorrelatedG2(in[0], in[1],
+                                                         AzimuthDifference(in[2], in[3], in[4], in[5]));
                   }},
   };
 }

@@ -1,7 +1,8 @@
-// Fresnel reflectance and transmittance of a dielectric, Walter 2007 Eq. 22.
+// Fresnel reflectance and transmittance of a dielectric, Walter 2007 Eq. 22, and reflectance of a conductor.
 #ifndef MICROLANE_SCALAR_FRESNEL_H_
 #define MICROLANE_SCALAR_FRESNEL_H_
 
+#include <algorithm>
 #include <cmath>
 
 #include "microlane/scalar/math.h"
@@ -72,6 +73,43 @@ template <class Real>
 Real OfCosine(Real cos_i, Real eta, double (FresnelDielectric<Real>::*member)() const) {
   if (AnyNan(cos_i, eta)) return kNan<Real>;
   return static_cast<Real>((FresnelDielectric<Real>(Square(Wide<Real>(cos_i)), eta).*member)());
+}
+
+// Reflectance of unpolarised light by a conductor of index N = n + i kappa. With g^2 = N^2 - s^2 complex,
+//   r_s = (c - g)/(c + g),   r_p = r_s (c g - s^2)/(c g + s^2),
+// and c^2 - g^2 = 1 - N^2, hence (|r_s|^2 + |r_p|^2)/2 = |N^2 - 1|^2 (|c g|^2 + s^4) / (|c + g|^2 |c g +
+// s^2|)^2, where nothing cancels but Re g^2.
+template <class Real>
+Real FresnelConductor(Real cos_i, Real n, Real kappa) {
+  if (AnyNan(cos_i, n, kappa)) return kNan<Real>;
+  using W = Wide<Real>;
+  const W wide_n = n, wide_kappa = kappa, c = std::abs(cos_i), cos2 = Square(c), sin2 = W(1) - cos2;
+  const W below = wide_n - W(1), above = wide_n + W(1), kappa2 = Square(wide_kappa);
+  if (Narrow<double>(below) == 0 && kappa == 0) return 0;
+  // g^2 = real + i imaginary; its modulus; Re g.
+  const W real = (below * above + cos2) - kappa2, imaginary = W(2) * wide_n * wide_kappa;
+  const W modulus = Sqrt(Square(real) + Square(imaginary));
+  W re_g = 0;
+  if (!(real < W(0))) {
+    re_g = Sqrt((modulus + real) / W(2));
+  } else {
+    re_g = imaginary / Sqrt(W(2) * (modulus - real));
+  }
+  const W cross = W(2) * c * re_g;
+  const W sum2 = modulus + cos2 + cross;            // |c + g|^2
+  const W squares = modulus * cos2 + Square(sin2);  // |c g|^2 + s^4
+  const W mixed2 = squares + cross * sin2;          // |c g + s^2|^2
+  if (!(mixed2 > W(0))) return 1;                   // cosines above 1
+  const W s = (Square(below) + kappa2) / sum2, p = (Square(above) + kappa2) / sum2 * (squares / mixed2);
+  return std::min(Narrow<Real>(s * p), Real(1));
+}
+
+// f0 + (1 - f0) (1 - |cos|)^5, Schlick 1994.
+template <class Real>
+Real FresnelSchlick(Real cos_i, Real f0) {
+  if (AnyNan(cos_i, f0)) return kNan<Real>;
+  const double x = std::max(0.0, 1 - std::abs(double{cos_i}));
+  return static_cast<Real>(f0 + (1 - double{f0}) * Square(Square(x)) * x);
 }
 
 }  // namespace microlane::scalar

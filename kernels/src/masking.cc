@@ -1,0 +1,161 @@
+#include "microlane/masking.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "src/masking.cc"
+#include "hwy/foreach_target.h"  // must stand before highway.h
+#include "microlane/masking-inl.h"
+#include "src/batch-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace microlane {
+namespace HWY_NAMESPACE {
+namespace {
+
+struct VCavityKernel {
+  static constexpr std::string_view kId = "masking.v_cavity";
+  template <Accuracy A, class D, class... V>
+  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, V... in) {
+    out.v0 = VCavityG1<A>(d, in...);
+  }
+};
+
+struct ImplicitKernel {
+  static constexpr std::string_view kId = "masking.implicit";
+  template <Accuracy, class D, class... V>
+  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, V... in) {
+    out.v0 = ImplicitG1(d, in...);
+  }
+};
+
+struct SchlickSmithKernel {
+  static constexpr std::string_view kId = "masking.schlick_smith";
+  template <Accuracy A, class D, class... V>
+  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, V... in) {
+    out.v0 = SchlickSmithG1<A>(d, in...);
+  }
+};
+
+struct KelemenKernel {
+  static constexpr std::string_view kId = "masking.kelemen";
+  template <Accuracy A, class D, class... V>
+  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, V... in) {
+    out.v0 = KelemenG1<A>(d, in...);
+  }
+};
+
+template <JointForm kForm>
+struct JointKernel {
+  static constexpr std::string_view kId = kForm == JointForm::kSeparable ? "masking.separable"
+                                          : kForm == JointForm::kHeight  ? "masking.height_correlated"
+                                          : kForm == JointForm::kDirection
+                                              ? "masking.direction_correlated"
+                                              : "masking.height_direction_correlated";
+  template <Accuracy A, class D, class... V>
+  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, V... in) {
+    out.v0 = JointG2<kForm, A>(d, in...);
+  }
+};
+
+FamilyCode FamilyOnTarget() {
+  return Family<VCavityKernel, ImplicitKernel, SchlickSmithKernel, KelemenKernel,
+                JointKernel<JointForm::kSeparable>, JointKernel<JointForm::kHeight>,
+                JointKernel<JointForm::kDirection>, JointKernel<JointForm::kHeightDirection>>();
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace microlane
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace microlane {
+
+HWY_EXPORT(FamilyOnTarget);
+const FamilyFunction* MaskingTable() { return HWY_DISPATCH_TABLE(FamilyOnTarget); }
+
+namespace masking {
+
+template <class T>
+void VCavity(std::size_t n, DirectionsOf<T> v, DirectionsOf<T> m, T* g1, Accuracy accuracy) {
+  CallBuilder<T>().In(v).In(m).Out(g1).template Run<KernelIndex("masking.v_cavity")>(MaskingTable(), accuracy,
+                                                                                     n);
+}
+
+template <class T>
+void Implicit(std::size_t n, DirectionsOf<T> v, DirectionsOf<T> m, T* g1, Accuracy accuracy) {
+  CallBuilder<T>().In(v).In(m).Out(g1).template Run<KernelIndex("masking.implicit")>(MaskingTable(), accuracy,
+                                                                                     n);
+}
+
+template <class T>
+void Kelemen(std::size_t n, DirectionsOf<T> v, DirectionsOf<T> m, T* g1, Accuracy accuracy) {
+  CallBuilder<T>().In(v).In(m).Out(g1).template Run<KernelIndex("masking.kelemen")>(MaskingTable(), accuracy,
+                                                                                    n);
+}
+
+template <class T>
+void SchlickSmith(std::size_t n, DirectionsOf<T> v, DirectionsOf<T> m, ParameterOf<T> alpha, T* g1,
+                  Accuracy accuracy) {
+  CallBuilder<T>().In(v).In(m).In(alpha).Out(g1).template Run<KernelIndex("masking.schlick_smith")>(
+      MaskingTable(), accuracy, n);
+}
+
+template <class T>
+void Separable(std::size_t n, const T* lambda_i, const T* lambda_o, T* g2, Accuracy accuracy) {
+  CallBuilder<T>().In(lambda_i).In(lambda_o).Out(g2).template Run<KernelIndex("masking.separable")>(
+      MaskingTable(), accuracy, n);
+}
+
+template <class T>
+void HeightCorrelated(std::size_t n, const T* lambda_i, const T* lambda_o, T* g2, Accuracy accuracy) {
+  CallBuilder<T>().In(lambda_i).In(lambda_o).Out(g2).template Run<KernelIndex("masking.height_correlated")>(
+      MaskingTable(), accuracy, n);
+}
+
+template <class T>
+void DirectionCorrelated(std::size_t n, const T* lambda_i, const T* lambda_o, DirectionsOf<T> wi,
+                         DirectionsOf<T> wo, T* g2, Accuracy accuracy) {
+  CallBuilder<T>()
+      .In(lambda_i)
+      .In(lambda_o)
+      .In(wi.x)
+      .In(wi.y)
+      .In(wo.x)
+      .In(wo.y)
+      .Out(g2)
+      .template Run<KernelIndex("masking.direction_correlated")>(MaskingTable(), accuracy, n);
+}
+
+template <class T>
+void HeightDirectionCorrelated(std::size_t n, const T* lambda_i, const T* lambda_o, DirectionsOf<T> wi,
+                               DirectionsOf<T> wo, T* g2, Accuracy accuracy) {
+  CallBuilder<T>()
+      .In(lambda_i)
+      .In(lambda_o)
+      .In(wi.x)
+      .In(wi.y)
+      .In(wo.x)
+      .In(wo.y)
+      .Out(g2)
+      .template Run<KernelIndex("masking.height_direction_correlated")>(MaskingTable(), accuracy, n);
+}
+
+#define MICROLANE_INSTANTIATE(T)                                                                             \
+  template void VCavity(std::size_t, Directions<T>, Directions<T>, T*, Accuracy);                            \
+  template void Implicit(std::size_t, Directions<T>, Directions<T>, T*, Accuracy);                           \
+  template void Kelemen(std::size_t, Directions<T>, Directions<T>, T*, Accuracy);                            \
+  template void SchlickSmith(std::size_t, Directions<T>, Directions<T>, Parameter<T>, T*, Accuracy);         \
+  template void Separable(std::size_t, const T*, const T*, T*, Accuracy);                                    \
+  template void HeightCorrelated(std::size_t, const T*, const T*, T*, Accuracy);                             \
+  template void DirectionCorrelated(std::size_t, const T*, const T*, Directions<T>, Directions<T>, T*,       \
+                                    Accuracy);                                                               \
+  template void HeightDirectionCorrelated(std::size_t, const T*, const T*, Directions<T>, Directions<T>, T*, \
+                                          Accuracy);
+MICROLANE_INSTANTIATE(float)
+MICROLANE_INSTANTIATE(double)
+#undef MICROLANE_INSTANTIATE
+
+}  // namespace masking
+
+}  // namespace microlane
+#endif  // HWY_ONCE

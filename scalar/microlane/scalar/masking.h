@@ -1,0 +1,105 @@
+// Masking functions of Heitz 2014 section 4.3 and V-cavities, and joint masking-shadowing from Smith's
+// Lambda.
+#ifndef MICROLANE_SCALAR_MASKING_H_
+#define MICROLANE_SCALAR_MASKING_H_
+
+#include <algorithm>
+#include <cmath>
+
+#include "microlane/scalar/direction.h"
+
+namespace microlane::scalar {
+
+// v.m as seen from v's side of the surface; 0 where v is along it.
+template <class Real>
+Wide<Real> FacingDot(const Vec3<Real>& v, const Vec3<Real>& m) {
+  if (v.z == 0) return 0;
+  const Wide<Real> dot = Dot(Widen(v), Widen(m));
+  return v.z < 0 ? -dot : dot;
+}
+
+// min(1, 2 mz |vz| / |v.m|), Heitz 2014 Eq. 49.
+template <class Real>
+Real VCavityG1(const Vec3<Real>& v, const Vec3<Real>& m) {
+  if (AnyNan(v, m)) return kNan<Real>;
+  using W = Wide<Real>;
+  const W facing = FacingDot(v, m);
+  if (!(facing > W(0)) || m.z <= 0) return 0;
+  const W area = W(2 * std::abs(v.z)) * W(m.z);
+  return area < facing ? Narrow<Real>(area / facing) : Real(1);
+}
+
+// |vz|, Heitz 2014 Eq. 56.
+template <class Real>
+Real ImplicitG1(const Vec3<Real>& v, const Vec3<Real>& m) {
+  if (AnyNan(v, m)) return kNan<Real>;
+  return FacingDot(v, m) > Wide<Real>(0) ? std::abs(v.z) : Real(0);
+}
+
+// c/(c (1 - k) + k) with k = alpha sqrt(2/pi), Heitz 2014 section 4.3, as a sum of positive terms.
+template <class Real>
+Real SchlickSmithG1(const Vec3<Real>& v, const Vec3<Real>& m, Real alpha) {
+  if (AnyNan(v, m, alpha)) return kNan<Real>;
+  if (!(FacingDot(v, m) > Wide<Real>(0))) return 0;
+  const double k = 0.79788456080286535588 * alpha, c = std::abs(v.z);
+  return static_cast<Real>(c / (c + k * (1 - c)));
+}
+
+// |vz| / |v.m|, Heitz 2014 Eq. 59: above 1 where the microfacet is seen at a smaller cosine than the surface.
+template <class Real>
+Real KelemenG1(const Vec3<Real>& v, const Vec3<Real>& m) {
+  if (AnyNan(v, m)) return kNan<Real>;
+  const Wide<Real> facing = FacingDot(v, m);
+  return facing > Wide<Real>(0) ? Narrow<Real>(Wide<Real>(std::abs(v.z)) / facing) : Real(0);
+}
+
+// The angle in [0, pi] between the azimuths of (ax, ay) and (bx, by); 0 where either has none.
+template <class Real>
+double AzimuthDifference(Real ax, Real ay, Real bx, Real by) {
+  using W = Wide<Real>;
+  const double sine = Narrow<double>(W(ax) * W(by) - W(ay) * W(bx));
+  const double cosine = Narrow<double>(W(ax) * W(bx) + W(ay) * W(by));
+  return sine == 0 && cosine == 0 ? 0 : std::atan2(std::abs(sine), cosine);
+}
+
+// G2 as a function of both Lambdas. Products of the largest Lambda are within double's range for float alone,
+// so that areas 1 + Lambda divide one after the other.
+
+// 1/((1 + Lambda_i)(1 + Lambda_o)), Heitz 2014 Eq. 98.
+template <class Real>
+Real SeparableG2(Real lambda_i, Real lambda_o) {
+  if (AnyNan(lambda_i, lambda_o)) return kNan<Real>;
+  return static_cast<Real>(1 / (1.0 + lambda_i) / (1.0 + lambda_o));
+}
+
+// 1/(1 + Lambda_i + Lambda_o), Heitz 2014 Eq. 99.
+template <class Real>
+Real HeightCorrelatedG2(Real lambda_i, Real lambda_o) {
+  if (AnyNan(lambda_i, lambda_o)) return kNan<Real>;
+  return static_cast<Real>(0.5 / (0.5 + 0.5 * double{lambda_i} + 0.5 * double{lambda_o}));
+}
+
+// t = 4.41 phi, so that van Ginneken's lambda is t/(1 + t).
+inline double DirectionalDecay(double phi) { return 4.41 * phi; }
+
+// lambda G1(i) G1(o) + (1 - lambda) min(G1(i), G1(o)), Heitz 2014 Eq. 100.
+template <class Real>
+Real DirectionCorrelatedG2(Real lambda_i, Real lambda_o, double phi) {
+  if (AnyNan(lambda_i, lambda_o, phi)) return kNan<Real>;
+  const double t = DirectionalDecay(phi);
+  const double lesser = std::min(lambda_i, lambda_o), greater = std::max(lambda_i, lambda_o);
+  return static_cast<Real>((1 + t / (1 + lesser)) / (1 + t) / (1 + greater));
+}
+
+// 1/(1 + max(Lambda_i, Lambda_o) + lambda min(Lambda_i, Lambda_o)), Heitz 2014 Eq. 101.
+template <class Real>
+Real HeightDirectionCorrelatedG2(Real lambda_i, Real lambda_o, double phi) {
+  if (AnyNan(lambda_i, lambda_o, phi)) return kNan<Real>;
+  const double t = DirectionalDecay(phi), lambda = t / (1 + t);
+  const double lesser = std::min(lambda_i, lambda_o), greater = std::max(lambda_i, lambda_o);
+  return static_cast<Real>(0.5 / (0.5 + 0.5 * greater + lambda * (0.5 * lesser)));
+}
+
+}  // namespace microlane::scalar
+
+#endif  // MICROLANE_SCALAR_MASKING_H_

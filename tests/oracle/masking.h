@@ -1,0 +1,73 @@
+// Masking functions of Heitz 2014, section 4, and joint masking-shadowing, section 6, as printed.
+#ifndef MICROLANE_TESTS_ORACLE_MASKING_H_
+#define MICROLANE_TESTS_ORACLE_MASKING_H_
+
+#include "oracle/real.h"
+
+namespace microlane::oracle {
+
+// v.m as seen from v's side of the surface; 0 or less where m is not seen.
+inline Real FacingDot(const Vec& v, const Vec& m) { return v.z == 0 ? Real(0) : Sign(v.z) * Dot(v, m); }
+
+// Heitz 2014, Eq. 49.
+inline Real VCavityG1(const Vec& v, const Vec& m) {
+  const Real facing = FacingDot(v, m);
+  if (facing <= 0 || m.z <= 0) return 0;
+  const Real ratio = 2 * m.z * abs(v.z) / facing;
+  return ratio < 1 ? ratio : Real(1);
+}
+
+// Heitz 2014, Eq. 56.
+inline Real ImplicitG1(const Vec& v, const Vec& m) { return FacingDot(v, m) > 0 ? abs(v.z) : Real(0); }
+
+// Heitz 2014, section 4.3.
+inline Real SchlickSmithG1(const Vec& v, const Vec& m, const Real& alpha) {
+  if (FacingDot(v, m) <= 0) return 0;
+  const Real k = alpha * sqrt(2 / Pi()), c = abs(v.z);
+  return c / (c * (1 - k) + k);
+}
+
+// Heitz 2014, Eq. 59.
+inline Real KelemenG1(const Vec& v, const Vec& m) {
+  const Real facing = FacingDot(v, m);
+  return facing > 0 ? abs(v.z) / facing : Real(0);
+}
+
+// The angle in [0, pi] between the azimuths of two directions; 0 where one has none.
+inline Real AzimuthDifference(const Real& ax, const Real& ay, const Real& bx, const Real& by) {
+  const Real sine = abs(ax * by - ay * bx), cosine = ax * bx + ay * by;
+  if (sine == 0 && cosine == 0) return 0;
+  return atan2(sine, cosine);
+}
+
+// lambda of van Ginneken 1998, after Heitz 2014, Eq. 101.
+inline Real DirectionalCorrelation(const Real& phi) {
+  const Real factor = Real(441) / 100;
+  return factor * phi / (factor * phi + 1);
+}
+
+// Heitz 2014, Eq. 98.
+inline Real SeparableG2(const Real& lambda_i, const Real& lambda_o) {
+  return 1 / (1 + lambda_o) * (1 / (1 + lambda_i));
+}
+
+// Heitz 2014, Eq. 99.
+inline Real HeightCorrelatedG2(const Real& lambda_i, const Real& lambda_o) {
+  return 1 / (1 + lambda_o + lambda_i);
+}
+
+// Heitz 2014, Eq. 100.
+inline Real DirectionCorrelatedG2(const Real& lambda_i, const Real& lambda_o, const Real& phi) {
+  const Real lambda = DirectionalCorrelation(phi), g_i = 1 / (1 + lambda_i), g_o = 1 / (1 + lambda_o);
+  return lambda * g_o * g_i + (1 - lambda) * (g_i < g_o ? g_i : g_o);
+}
+
+// Heitz 2014, Eq. 101.
+inline Real HeightDirectionCorrelatedG2(const Real& lambda_i, const Real& lambda_o, const Real& phi) {
+  const bool less = lambda_i < lambda_o;
+  return 1 / (1 + (less ? lambda_o : lambda_i) + DirectionalCorrelation(phi) * (less ? lambda_i : lambda_o));
+}
+
+}  // namespace microlane::oracle
+
+#endif  // MICROLANE_TESTS_ORACLE_MASKING_H_
