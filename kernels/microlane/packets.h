@@ -74,7 +74,7 @@ template <class T>
 struct Call {
   const T* in[11];
   bool uniform[11] = {};  // in[k] is one value; only for inputs behind the list's '|'
-  T* out[6];             // an output may be the same array as an input; other overlap is not allowed
+  T* out[6];              // an output may be the same array as an input; other overlap is not allowed
   Transport transport = Transport::kRadiance;
 };
 
