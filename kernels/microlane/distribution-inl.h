@@ -40,7 +40,7 @@ HWY_INLINE void CarefulLogDensity(D d, Vec<D>& high, Vec<D>& low, Vec<D> r, Vec<
                                   Vec<D> hx, Vec<D> hy, Vec<D> hz, Vec<D> hx_tail, Vec<D> hy_tail,
                                   Vec<D> hz_tail, P... p) {
 #if HWY_NATIVE_FMA
-  (void)e_tail;  // in kPlain, Density has none
+  (void)e_tail;  // taken from H and e instead
   Dist::template CarefulLogDensity<kCare>(d, high, low, r, e, hx, hy, hz, hx_tail, hy_tail, hz_tail, p...);
 #else
   (void)e;

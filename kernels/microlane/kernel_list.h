@@ -352,9 +352,9 @@ inline constexpr DielectricFamily kDielectricFamilies[] = {
     {"rough_dielectric", "alpha_x alpha_y", "GGX: Walter 2007 Eqs. 33-36, stretched",
      {1, 22, 4096, 24, 0x1p20}, {1, 22, 4096, 24, 0x1p14}, {1, 14, 2400, 20, 14}, {1, 24, 6500, 32, 17}},
     {"rough_dielectric_beckmann", "alpha_x alpha_y", "Beckmann: Walter 2007 Eqs. 25, 26, 28, 29, stretched",
-     {1, 22, 4096, 24, 0x1p20}, {1, 22, 4096, 24, 0x1p14}, {1, 14, 2400, 20, 5000}, {1, 24, 6500, 32, 17}},
+     {1, 20, 4096, 24, 0x1p20}, {1, 20, 4096, 24, 0x1p14}, {1, 14, 2400, 20, 3500}, {1, 24, 6500, 32, 17}},
     {"rough_dielectric_phong", "exponent", "Phong: Walter 2007 Eqs. 27, 30-32",
-     {1, 22, 4096, 24, 0x1p20}, {1, 22, 4096, 24, 0x1p14}, {1, 14, 2400, 20, 5000}, {1, 90, 4096, 90, 17}},
+     {1, 22, 4096, 24, 0x1p20}, {1, 22, 4096, 24, 0x1p14}, {1, 14, 2400, 20, 4200}, {1, 90, 4096, 90, 17}},
 };
 // clang-format on
 
