@@ -238,6 +238,7 @@ void MeasureErrors(const Request& request, const Progress& progress, ReportData&
       if (path == Path::kScalarDouble) options.samples /= 10;
       const AccuracyReport report = MeasureAccuracy(result.kernel, options);
       to.max_ulp = report.max_ulp;
+      to.max_relative = report.max_relative;
       to.points = report.points;
       to.nan_count = report.nan_count + report.inf_count;
       to.bound = report.bound;

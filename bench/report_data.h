@@ -24,6 +24,7 @@ struct PathResult {
   double slowest_round = 0;  // least time of the worst round, where the batch above is that of the best
   double max_ulp = 0;        // over the outputs and all points; infinite where one is NaN without cause
   double mean_ulp = 0;
+  double max_relative = 0;  // AccuracyReport's
   std::uint64_t points = 0, nan_count = 0;
   // Of high, standard and fast:
   double bound = 0;

@@ -431,6 +431,37 @@ float VisibleDensity(const Distribution& distribution, const Vec3& w, const Vec3
          AbsDot(w, wm);
 }
 
+template <class Distribution>
+float BoundedDensity(const Distribution& distribution, const Vec3& w, const Vec3& wm) {
+  const float length =
+      std::sqrt(Sqr(distribution.alpha_x * w.x) + Sqr(distribution.alpha_y * w.y) + Sqr(w.z));
+  return 2 * AbsDot(w, wm) * distribution.D(wm) / (distribution.CapBound(w) * w.z + length);
+}
+
+// pbrt-v4's conductor with F = 1: f |cos(theta_o)| / pdf of a mirror direction about a visible normal.
+struct VisibleReflection {
+  Vec3 wo;
+  float weight, pdf, lobe;
+};
+template <bool kBounded, class Distribution>
+VisibleReflection SampleVisibleReflection(const Distribution& distribution, const Vec3& wi, float u1,
+                                          float u2) {
+  const Vec3 w = wi.z < 0 ? -wi : wi;
+  Vec3 wm;
+  if constexpr (kBounded) {
+    wm = distribution.SampleVisibleNormalBounded(w, u1, u2);
+  } else {
+    wm = distribution.SampleVisibleNormal(w, u1, u2);
+  }
+  const Vec3 wo = Reflect(w, wm);
+  if (!SameHemisphere(w, wo)) return {{0, 0, 0}, 0, 0, 0};
+  const float density = kBounded ? BoundedDensity(distribution, w, wm) : VisibleDensity(distribution, w, wm);
+  const float pdf = density / (4 * AbsDot(w, wm));
+  const float g = 1 / (1 + distribution.Lambda(w) + distribution.Lambda(wo));
+  const float f = distribution.D(wm) * g / (4 * AbsCosTheta(w) * AbsCosTheta(wo));
+  return {wi.z < 0 ? -wo : wo, f * AbsCosTheta(wo) / pdf, pdf, 1};
+}
+
 // A distribution from its parameters, as they follow the other inputs.
 template <RoughnessKind kRoughness, class Anisotropic, class Isotropic>
 auto MakeRough(const float* in) {
@@ -473,6 +504,14 @@ void OfNormals(const float* in, float* out, Transport) {
     const Vec3 wm = normals.SampleNormal(in[0], in[1]);
     Store(wm, out);
     out[3] = normals.D(wm) * AbsCosTheta(wm);
+  } else if constexpr (row.what == NormalQuantity::kSampleReflection ||
+                       row.what == NormalQuantity::kSampleReflectionBounded) {
+    constexpr bool bounded = row.what == NormalQuantity::kSampleReflectionBounded;
+    const VisibleReflection sample = SampleVisibleReflection<bounded>(normals, Load(in), in[3], in[4]);
+    Store(sample.wo, out);
+    out[3] = sample.weight;
+    out[4] = sample.pdf;
+    out[5] = sample.lobe;
   } else {
     const Vec3 w = Cosine(normals, Load(in)) < 0 ? -Load(in) : Load(in);
     if constexpr (row.what == NormalQuantity::kSampleVisible) {
@@ -482,8 +521,7 @@ void OfNormals(const float* in, float* out, Transport) {
     } else {
       const Vec3 wm = normals.SampleVisibleNormalBounded(w, in[3], in[4]);
       Store(wm, out);
-      const float length = std::sqrt(Sqr(normals.alpha_x * w.x) + Sqr(normals.alpha_y * w.y) + Sqr(w.z));
-      out[3] = 2 * AbsDot(w, wm) * normals.D(wm) / (normals.CapBound(w) * w.z + length);
+      out[3] = BoundedDensity(normals, w, wm);
     }
   }
 }
@@ -696,26 +734,27 @@ constexpr std::array kEntries = {
 };
 
 template <std::size_t... kPlace>
-constexpr void AddNormals(std::array<Batch, kNumKernels>& table, std::index_sequence<kPlace...>) {
+constexpr void AddNormals(KernelTable<Batch>& table, std::index_sequence<kPlace...>) {
   const auto add = [&](auto place) {
     constexpr std::size_t kThis = decltype(place)::value, kKernel = kNumComponentKernels + kThis;
     if constexpr (kNormalRows[kNormalKernelPlaces[kThis].row].what != NormalQuantity::kOwn) {
-      table[kKernel] = Loop<kKernel, OfNormals<kThis>>;
+      table[kKernel] = {Loop<kKernel, OfNormals<kThis>>, true};
     }
   };
   (add(std::integral_constant<std::size_t, kPlace>()), ...);
 }
 
 template <class Distribution, std::size_t... kQuantity>
-constexpr void AddDielectrics(std::array<Batch, kNumKernels>& table, std::index_sequence<kQuantity...>) {
+constexpr void AddDielectrics(KernelTable<Batch>& table, std::index_sequence<kQuantity...>) {
   ((table[DielectricKernel(Distribution::kNormals, kQuantity)] =
-        Loop<DielectricKernel(Distribution::kNormals, kQuantity), Dielectric<Distribution, kQuantity>>),
+        {Loop<DielectricKernel(Distribution::kNormals, kQuantity), Dielectric<Distribution, kQuantity>>,
+         true}),
    ...);
 }
 
-constexpr std::array<Batch, kNumKernels> Resolve() {
-  std::array<Batch, kNumKernels> table{};
-  for (const Entry& entry : kEntries) table[entry.kernel] = entry.batch;
+constexpr KernelTable<Batch> Resolve() {
+  KernelTable<Batch> table{};
+  for (const Entry& entry : kEntries) table[entry.kernel] = {entry.batch, true};
   constexpr auto quantities = std::make_index_sequence<kNumDielectricQuantities>();
   AddNormals(table, std::make_index_sequence<kNumNormalKernels>());
   AddDielectrics<Ggx>(table, quantities);
@@ -724,18 +763,12 @@ constexpr std::array<Batch, kNumKernels> Resolve() {
   return table;
 }
 
-constexpr std::array<Batch, kNumKernels> kTable = Resolve();
+constexpr KernelTable<Batch> kTable = Resolve();
 
-constexpr bool Complete() {
-  for (const Batch batch : kTable) {
-    if (batch == nullptr) return false;
-  }
-  return true;
-}
-static_assert(Complete(), "every entry of the kernel list has its textbook code");
+static_assert(HasEveryKernel(kTable), "every entry of the kernel list has its textbook code");
 
 }  // namespace
 
-void Run(std::size_t kernel, const Call<float>& call, std::size_t n) { kTable[kernel](call, n); }
+void Run(std::size_t kernel, const Call<float>& call, std::size_t n) { kTable[kernel].function(call, n); }
 
 }  // namespace microlane::textbook

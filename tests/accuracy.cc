@@ -67,6 +67,7 @@ struct Tally {
 
 struct Tallies {
   Tally output[kMaxOutputs];
+  double relative = 0;  // largest, of kUlp outputs that are normal floats
   std::uint64_t points = 0, searched = 0, judged = 0, nans = 0, infinities = 0, excused = 0, undetermined = 0;
 
   void Add(const Tallies& other) {
@@ -78,6 +79,7 @@ struct Tallies {
       if (from.worst.ulp > to.worst.ulp) to.worst = from.worst;
       for (const Candidate& candidate : from.parents) to.Offer(candidate);
     }
+    relative = std::max(relative, other.relative);
     points += other.points;
     searched += other.searched;
     judged += other.judged;
@@ -200,6 +202,10 @@ class Judge {
     }
     if (near_worst) Truth(in, transport, got, tallies, error, correct, memo);
     for (std::size_t i = 0; i < outputs_.count; ++i) {
+      const double magnitude = std::abs(static_cast<double>(got[i]));
+      if (sizeof(T) == 4 && metric_[i] == Metric::kUlp && magnitude >= 0x1p-126 && std::isfinite(magnitude)) {
+        tallies.relative = std::max(tallies.relative, error[i] * FloatUlp(magnitude) / magnitude);
+      }
       if (errors != nullptr) {
         errors[i] = error[i];
         continue;
@@ -216,9 +222,9 @@ class Judge {
     double reference[kMaxOutputs];
     scalar::Evaluate(kernel_, in.data(), reference, Scalar(transport));
     if (samples_ && static_cast<double>(got[5]) != reference[5]) return false;
-    double kappa = 1;
-    if (samples_ && reference[5] != 0) kappa = Kappa(in, reference);
     for (std::size_t i = 0; i < outputs_.count; ++i) {
+      const double kappa =
+          samples_ && reference[5] != 0 ? Kappa(in, reference, outputs_.name[i] == "weight") : 1;
       const double exact = reference[i];
       if (!(std::abs(exact) <= static_cast<double>(std::numeric_limits<float>::max()))) return false;
       const double scale = metric_[i] == Metric::kDirection     ? 1
@@ -238,15 +244,22 @@ class Judge {
     return 0.25 / (std::numeric_limits<T>::epsilon() * std::max(bound, 1.0));
   }
 
-  // Metric::kConditioned's, from a sample's wi, wo and eta.
-  double Kappa(const Point& in, const double* out) const {
+  // Metric::kConditioned's, from a sample's wi, wo and eta, no more than the oracle's; without an
+  // interface 1.
+  double Kappa(const Point& in, const double* out, bool of_weight) const {
+    if (names_.name[names_.count - 1] != "eta") return 1;
     const double eta = in[names_.count - 1], e = out[5] == 2 ? eta : 1;
     const double hx = in[0] + e * out[0], hy = in[1] + e * out[1], hz = in[2] + e * out[2];
     const double h2 = hx * hx + hy * hy + hz * hz;
     if (!(h2 > 1e-12)) return 1;
     const double c = std::abs(in[0] * hx + in[1] * hy + in[2] * hz) / std::sqrt(h2);
     const double g2 = (eta - 1) * (eta + 1) + c * c;
-    return (1 + 1 / c) * (1 + c * c / std::abs(g2)) * (1 + 1 / std::abs(out[2]));
+    double of_wo = 1 + 1 / std::abs(out[2]);
+    if (of_weight && names_.name[names_.count - 2] == "alpha_y") {
+      const double alpha_x = in[names_.count - 3], alpha_y = in[names_.count - 2];
+      of_wo += (alpha_x + alpha_y) / std::hypot(out[2], alpha_x * out[0], alpha_y * out[1]);
+    }
+    return (1 + 1 / c) * (1 + c * c / std::abs(g2)) * of_wo;
   }
 
   template <class T>
@@ -266,7 +279,7 @@ class Judge {
     for (std::size_t i = 0; i < outputs_.count; ++i) {
       error[i] = UlpError(got[i], truth.exact[i], truth.scale[i]);
       if (metric_[i] == Metric::kConditioned && std::isfinite(got[i]) &&
-          truth.scale[i] > limit * truth.exact[i]) {
+          (truth.scale[i] > limit * truth.exact[i] || truth.curvature[i] > limit)) {
         ++tallies.undetermined;
         error[i] = 0;
       }
@@ -402,6 +415,7 @@ AccuracyReport MakeReport(std::size_t kernel, const AccuracyOptions& options, co
   report.judged = total.judged;
   report.nan_count = total.nans;
   report.inf_count = total.infinities;
+  report.max_relative = total.relative;
   report.lobes_excused = total.excused;
   report.undetermined = total.undetermined;
   const double points = static_cast<double>(std::max<std::uint64_t>(total.points - total.searched, 1));

@@ -54,6 +54,7 @@ struct AccuracyReport {
   std::vector<OutputReport> outputs;
   double max_ulp = 0;            // over the outputs
   std::size_t worst_output = 0;  // which
+  double max_relative = 0;       // largest relative error of a normal float whose metric is kUlp
   std::uint64_t nan_count = 0;   // points with a NaN or an infinity in an output
   std::uint64_t inf_count = 0;
   std::uint64_t lobes_excused = 0;  // samples that took another lobe than the oracle where rounding decides

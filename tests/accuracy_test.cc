@@ -34,6 +34,9 @@ void Print(std::size_t kernel, const AccuracyOptions& options, const AccuracyRep
 void Expect(std::size_t kernel, const AccuracyOptions& options, const AccuracyReport& report) {
   Print(kernel, options, report);
   EXPECT_LE(report.max_ulp, report.bound) << Describe(kernel, options, report);
+  if (!options.double_lanes && options.accuracy == Accuracy::kFast) {
+    EXPECT_LE(report.max_relative, 0x1p-11) << Describe(kernel, options, report);
+  }
   EXPECT_EQ(report.nan_count, 0u) << Describe(kernel, options, report);
   EXPECT_EQ(report.inf_count, 0u) << Describe(kernel, options, report);
 }

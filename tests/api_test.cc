@@ -120,6 +120,12 @@ void CallNormals(Arguments<T>& a, const P&... p) {
   } else if constexpr (row.what == NormalQuantity::kSampleVisible) {
     Calls::SampleVisibleNormal(a.n, a.Direction(0), a.Lanes(3), a.Lanes(4), p..., a.OutDirection(0), a.Out(3),
                                a.accuracy);
+  } else if constexpr (row.what == NormalQuantity::kSampleReflection) {
+    Calls::SampleVisibleReflection(a.n, a.Direction(0), a.Lanes(3), a.Lanes(4), p..., a.OutDirection(0),
+                                   a.Out(3), a.Out(4), a.Out(5), a.accuracy);
+  } else if constexpr (row.what == NormalQuantity::kSampleReflectionBounded) {
+    Calls::SampleVisibleReflectionBounded(a.n, a.Direction(0), a.Lanes(3), a.Lanes(4), p...,
+                                          a.OutDirection(0), a.Out(3), a.Out(4), a.Out(5), a.accuracy);
   } else {
     Calls::SampleVisibleNormalBounded(a.n, a.Direction(0), a.Lanes(3), a.Lanes(4), p..., a.OutDirection(0),
                                       a.Out(3), a.accuracy);

@@ -194,6 +194,8 @@ Cases CasesOnTarget() {
       NormalCase<Ggx, ggx, NormalQuantity::kG1>, NormalCase<Ggx, ggx, NormalQuantity::kSampleNormal>,
       NormalCase<Ggx, ggx, NormalQuantity::kDVisible>, NormalCase<Ggx, ggx, NormalQuantity::kSampleVisible>,
       NormalCase<Ggx, ggx, NormalQuantity::kSampleVisibleBounded>,
+      NormalCase<Ggx, ggx, NormalQuantity::kSampleReflection>,
+      NormalCase<Ggx, ggx, NormalQuantity::kSampleReflectionBounded>,
       NormalCase<Beckmann, beckmann, NormalQuantity::kD>,
       NormalCase<Beckmann, beckmann, NormalQuantity::kLambda>,
       NormalCase<Beckmann, beckmann, NormalQuantity::kG1>,

@@ -142,7 +142,7 @@ constexpr DielectricSampler kDielectricSamplers[] = {
 
 // Sidak's correction over all chi-square tests of this file.
 double ChiSquareSignificance() {
-  std::size_t count = NormalCases().size() + VisibleCases().size();
+  std::size_t count = NormalCases().size() + 2 * VisibleCases().size();
   const std::size_t cases = DielectricCases().size();
   for (const DielectricSampler& sampler : kDielectricSamplers) {
     count += (cases + sampler.every - 1) / sampler.every;
@@ -406,6 +406,28 @@ std::vector<Column<float>> SampleVisible(const VisibleCase& c, std::size_t n, st
   return RunAll<float>(id, n, {c.accuracy}, c.v(), u1, u2, c.distribution);
 }
 
+// Density of directions that v is reflected into about visible normals, in double lanes.
+Column<double> ReflectedDensity(const VisibleCase& c, const DirectionColumns<double>& wo) {
+  const Direction v = c.v();
+  const std::size_t n = wo.size();
+  const DirectionColumns<double> h = RunDirection<double>("half_vector.reflection", n, {}, v, wo);
+  Column<double> density = RunOne<double>(c.distribution.Id("D_visible"), n, {}, v, h, c.distribution);
+  const double share = c.bounded ? CapShare(c) : 1;
+  for (std::size_t i = 0; i < n; ++i) {
+    density[i] *= wo.z[i] * v.z > 0 ? 1 / (4 * std::abs(Dot(v, h[i])) * share) : 0;
+  }
+  return density;
+}
+
+// Outputs of a sampler of reflections about visible normals.
+template <class T>
+std::vector<Column<T>> SampleReflections(const VisibleCase& c, std::size_t n, std::mt19937_64& random) {
+  const Column<T> u1 = UniformNumbers<T>(n, random), u2 = UniformNumbers<T>(n, random);
+  const std::string id =
+      c.distribution.Id(c.bounded ? "sample_visible_reflection_bounded" : "sample_visible_reflection");
+  return RunAll<T>(id, n, {c.accuracy}, c.v(), u1, u2, c.distribution);
+}
+
 // Heitz 2014, Eq. 16, from views on either side. Bounded caps are tested by the directions they reflect v
 // into, since they leave out normals that reflect it below the surface: above, their density is that of whole
 // caps over the share of the cap that is left.
@@ -429,15 +451,8 @@ TEST(VisibleNormalSampler, DensityIsThatOfVisibleNormals) {
     };
     const DirectionColumns<float> pilot = sample(20000), samples = sample(kSamples);
     const DensityTest test = TestDensity(pilot, samples, [&](const DirectionColumns<double>& nodes) {
-      const std::string id = c.distribution.Id("D_visible");
-      const std::size_t n = nodes.size();
-      if (!c.bounded) return RunOne<double>(id, n, {}, v, nodes, c.distribution);
-      const DirectionColumns<double> h = RunDirection<double>("half_vector.reflection", n, {}, v, nodes);
-      Column<double> density = RunOne<double>(id, n, {}, v, h, c.distribution);
-      for (std::size_t i = 0; i < n; ++i) {
-        density[i] *= nodes.z[i] * v.z > 0 ? 1 / (4 * std::abs(Dot(v, h[i])) * CapShare(c)) : 0;
-      }
-      return density;
+      if (c.bounded) return ReflectedDensity(c, nodes);
+      return RunOne<double>(c.distribution.Id("D_visible"), nodes.size(), {}, v, nodes, c.distribution);
     });
     tally.Add(test, kSamples, c.Text());
   }
@@ -455,11 +470,8 @@ TEST(VisibleNormalSampler, BoundedCapsLoseFewerReflections) {
       for (const bool bounded : {false, true}) {
         c.bounded = bounded;
         std::mt19937_64 random(3);
-        const std::vector<Column<float>> out = SampleVisible(c, kSamples, random);
-        for (std::size_t i = 0; i < kSamples; ++i) {
-          const Direction m{out[0][i], out[1][i], out[2][i]};
-          lost[bounded ? 1 : 0] += 2 * Dot(c.v(), m) * m.z <= c.v().z ? 1.0 / kSamples : 0;
-        }
+        const std::vector<Column<float>> out = SampleReflections<float>(c, kSamples, random);
+        for (const float lobe : out[5]) lost[bounded ? 1 : 0] += lobe == 0 ? 1.0 / kSamples : 0;
       }
       // The normals kept are the same, so what is lost falls exactly with the cap; 5 standard deviations.
       const double expected = 1 - (1 - lost[0]) / CapShare(c), tolerance = 5 * std::sqrt(0.5 / kSamples);
@@ -469,6 +481,75 @@ TEST(VisibleNormalSampler, BoundedCapsLoseFewerReflections) {
     }
     std::printf("  alpha %-4g share lost, whole and bounded caps, at 0, 30, 60, 80, 89 degrees:%s\n",
                 double{alpha}, line.c_str());
+  }
+}
+
+TEST(VisibleReflectionSampler, DensityIsThatOfReflectedVisibleNormals) {
+  constexpr std::size_t kSamples = 100000;
+  ChiSquareTally tally("reflections about visible normals against D_visible");
+  std::uint64_t seed = 2000;
+  for (const VisibleCase& c : VisibleCases()) {
+    std::mt19937_64 random(seed++);
+    const auto sample = [&](std::size_t n) {
+      const std::vector<Column<float>> out = SampleReflections<float>(c, n, random);
+      return DirectionColumns<float>{out[0], out[1], out[2]};
+    };
+    const DirectionColumns<float> pilot = sample(20000), samples = sample(kSamples);
+    tally.Add(TestDensity(pilot, samples,
+                          [&](const DirectionColumns<double>& nodes) { return ReflectedDensity(c, nodes); }),
+              kSamples, c.Text());
+  }
+}
+
+// The weight is f |cos| / pdf of the rough dielectric's value over its F, never above 1, and the density that
+// of the visible normal.
+TEST(VisibleReflectionSampler, WeightsAreValueOverDensity) {
+  constexpr std::size_t kSamples = 2000;
+  constexpr double kEta = 1.5;
+  Tally weights("weight = f |cos| / (F pdf)"), densities("pdf = D_visible's"), lost("0 where lost");
+  std::size_t successes = 0;
+  double largest = 0;
+  std::uint64_t seed = 3000;
+  for (const VisibleCase& c : VisibleCases()) {
+    std::mt19937_64 random(seed++);
+    const std::vector<Column<double>> out = SampleReflections<double>(c, kSamples, random);
+    const DirectionColumns<double> wo{out[0], out[1], out[2]};
+    const Column<double> f_cos =
+        RunOne<double>("rough_dielectric.eval_reflection", kSamples, {}, c.v(), wo, c.distribution, kEta);
+    const Column<double> density = ReflectedDensity(c, wo);
+    Column<double> cos_i;
+    for (std::size_t i = 0; i < kSamples; ++i) cos_i.push_back(Dot(c.v(), Normalized(c.v() + wo[i])));
+    const Column<double> F = RunOne<double>("fresnel.dielectric", kSamples, {}, cos_i, kEta);
+    const double alpha = std::min(c.distribution.scale_x, c.distribution.scale_y);
+    for (std::size_t i = 0; i < kSamples; ++i) {
+      const auto where = [&] { return c.Text() + " wo " + Text(wo[i]); };
+      if (out[5][i] == 0) {
+        lost.Add(std::abs(out[0][i]) + std::abs(out[1][i]) + std::abs(out[2][i]) + out[3][i] + out[4][i], 0,
+                 where);
+        continue;
+      }
+      ++successes;
+      largest = std::max(largest, out[3][i]);
+      const double geometric = 1 + 1 / std::abs(wo.z[i]) + 1 / cos_i[i];
+      weights.AddRelative(f_cos[i] / (F[i] * density[i]), out[3][i], 1e-11 * geometric, where);
+      densities.AddRelative(out[4][i], density[i], 1e-12 * geometric / std::min(alpha, 1.0), where);
+    }
+  }
+  weights.Note(Text(", %zu samples, largest weight %.17g", successes, largest));
+  EXPECT_GT(successes, 50 * kSamples);
+  EXPECT_LE(largest, 1);
+}
+
+// In float lanes too.
+TEST(VisibleReflectionSampler, WeightsAreAtMostOne) {
+  Tally tally("largest weight - 1");
+  std::uint64_t seed = 4000;
+  for (const VisibleCase& c : VisibleCases()) {
+    std::mt19937_64 random(seed++);
+    const std::vector<Column<float>> out = SampleReflections<float>(c, 20000, random);
+    for (std::size_t i = 0; i < out[3].size(); ++i) {
+      tally.Add(std::max(0.0, double{out[3][i]} - 1), 0, [&] { return c.Text(); });
+    }
   }
 }
 
@@ -888,6 +969,22 @@ TEST(Samplers, EdgesOfTheRandomNumbersGiveUnitVectors) {
               const Direction m{double{out[0][i]}, double{out[1][i]}, double{out[2][i]}};
               normals.Add(Length(m) - 1, tolerance, where);
               normals.Add(m.z > 0 && finite(out[3][i]) && out[3][i] > 0 ? 0 : 1, 0, where);
+            }
+          }
+          for (const char* quantity : {"sample_visible_reflection", "sample_visible_reflection_bounded"}) {
+            const std::vector<Column<T>> out =
+                RunAll<T>(distribution.Id(quantity), n, mode, v, u1, u2, distribution);
+            for (std::size_t i = 0; i < n; ++i) {
+              const auto where = [&] {
+                return distribution.Text() +
+                       Text(", %s, vz %g, u %a %a", quantity, vz, double{u1[i]}, double{u2[i]});
+              };
+              const Direction wo{double{out[0][i]}, double{out[1][i]}, double{out[2][i]}};
+              const bool kept = out[5][i] == 1;
+              directions.Add(Length(wo) - (kept ? 1 : 0), kept ? 4 * tolerance : 0, where);
+              const bool valid = kept ? (vz < 0 ? -wo.z : wo.z) > 0 && out[3][i] >= 0 && out[4][i] > 0
+                                      : out[3][i] == 0 && out[4][i] == 0 && out[5][i] == 0;
+              directions.Add(valid && finite(out[3][i]) && finite(out[4][i]) ? 0 : 1, 0, where);
             }
           }
         }

@@ -20,10 +20,10 @@ struct Beckmann {
   static constexpr bool kHasExponent = true, kMaskingInDouble = true, kDensityOfCosine = false;
 
   // C^2 of Stretch, kCareful with its rounding error, kept off the underflow where exp(LogDensity) is 0
-  // already.
+  // already. CarefulLogDensity sees to H_tail.
   template <Care kCare, class D, class... P>
-  static HWY_INLINE void Density(D d, Vec<D>& e, Vec<D>& e_tail, Vec<D>& w, Vec<D>, Vec<D>, Vec<D> hz,
-                                 P... p) {
+  static HWY_INLINE void Density(D d, Vec<D>& e, Vec<D>& e_tail, Vec<D>& w, Vec<D>, Vec<D>, Vec<D> hz, Vec<D>,
+                                 Vec<D>, Vec<D>, P... p) {
     Vec<D> ux, uy, uz, uz_tail;
     Stretch<kCare>(d, ux, uy, uz, uz_tail, w, p...);
     if constexpr (kCare != Care::kCareful) {
@@ -179,21 +179,39 @@ struct Beckmann {
     return hn::Add(z, ZeroIf(one, quotient));
   }
 
-  // Walter 2007 Eqs. 28, 29; pdf = D cos = (1 - u1) |.|^3 / (pi ax ay).
-  template <Accuracy A, class D, class... P>
+  // Walter 2007 Eqs. 28, 29: tan^2 = -log(1 - u1).
+  template <Care kCare, Accuracy A, class D, class... P>
   static HWY_INLINE void SampleNormal(D d, Vec<D>& mx, Vec<D>& my, Vec<D>& mz, Vec<D>& pdf, Vec<D> u1,
                                       Vec<D> u2, P... p) {
     u1 = BelowOne(d, u1);
-    const Vec<D> area = hn::Mul(hn::Mul(AlphaX(p...), AlphaY(p...)), Const(d, kPi));
-    NormalFromSlopes<A>(d, mx, my, mz, pdf, hn::Sqrt(NegLog1m<A>(d, u1)), Const(d, 1), u2, area, AlphaX(p...),
-                        AlphaY(p...));
-    pdf = hn::Mul(pdf, hn::Sub(Const(d, 1), u1));
+    const Vec<D> one = Const(d, 1), w = hn::Sub(one, u1), w_tail = hn::Sub(hn::Sub(one, w), u1);
+    Vec<D> t, t_tail;
+    NegLog1m<A>(d, u1, t, t_tail);
+    NormalFromSlopes<true, kCare, A>(d, mx, my, mz, pdf, hn::Sqrt(t), t, t_tail, w, w_tail, u2, p...);
   }
 
-  // 1.2 - 0.2 sqrt(|i.n|): the factor of alpha in the widened sampling of Walter 2007 section 5.3.
-  template <Accuracy A, class D>
-  static HWY_INLINE Vec<D> Widening(D d, Vec<D> cos_i) {
-    return hn::NegMulAdd(Sqrt<A>(d, hn::Abs(cos_i)), Const(d, 0.2), Const(d, 1.2));
+  // The same with both alphas times f = 1.2 - 0.2 sqrt(|i.n|), Walter 2007 section 5.3: f^2 goes to the
+  // squared slope and to the density's alphas.
+  template <Care kCare, Accuracy A, class D, class... P>
+  static HWY_INLINE void SampleNormalWidened(D d, Vec<D>& mx, Vec<D>& my, Vec<D>& mz, Vec<D>& pdf, Vec<D> u1,
+                                             Vec<D> u2, Vec<D> cos_i, P... p) {
+    constexpr double kHigh = kIsFloat<D> ? 1.2f : 1.2, kHighRoot = kIsFloat<D> ? 0.2f : 0.2;
+    u1 = BelowOne(d, u1);
+    const Vec<D> one = Const(d, 1), w = hn::Sub(one, u1), w_tail = hn::Sub(hn::Sub(one, w), u1);
+    const Vec<D> root = Sqrt<A>(d, hn::Abs(cos_i)),
+                 f = hn::NegMulAdd(root, Const(d, kHighRoot), Const(d, kHigh));
+    const Vec<D> f_tail = hn::Add(hn::NegMulAdd(root, Const(d, kHighRoot), hn::Sub(Const(d, kHigh), f)),
+                                  hn::NegMulAdd(root, Const(d, 0.2 - kHighRoot), Const(d, 1.2 - kHigh)));
+    Vec<D> f2, f2_tail, t, t_tail, tf2, tf2_tail;
+    TwoProduct(d, f, f, f2, f2_tail);
+    f2_tail = hn::MulAdd(hn::Add(f, f), f_tail, f2_tail);
+    NegLog1m<A>(d, u1, t, t_tail);
+    TwoProduct(d, t, f2, tf2, tf2_tail);
+    tf2_tail = hn::MulAdd(t, f2_tail, hn::MulAdd(t_tail, f2, tf2_tail));
+    const Vec<D> over_f2 = Reciprocal<A>(d, f2), q = hn::Mul(w, over_f2);
+    const Vec<D> rest = hn::Sub(hn::NegMulAdd(q, f2_tail, w_tail), FusedMulSub(d, q, f2, w));
+    NormalFromSlopes<true, kCare, A>(d, mx, my, mz, pdf, hn::Sqrt(tf2), tf2, tf2_tail, q,
+                                     hn::Mul(rest, over_f2), u2, p...);
   }
 };
 

@@ -40,20 +40,32 @@ HWY_INLINE bool AnyNonFinite(hn::Full512<float>, hn::Vec512<float> x) {
 }
 #endif
 
-// Approximate reciprocal and reciprocal root with relative error below 2^-13.9 on every target.
+// Whether this target's approximations have 14 bits and stay as they are; elsewhere a Newton step is taken.
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX3
+constexpr bool kCoarseReciprocals = true;
+#else
+constexpr bool kCoarseReciprocals = false;
+#endif
+
+template <class D>
+HWY_INLINE Vec<D> NewtonReciprocal(D d, Vec<D> x, Vec<D> r) {
+  return hn::Mul(r, hn::NegMulAdd(x, r, hn::Set(d, 2.0f)));
+}
+template <class D>
+HWY_INLINE Vec<D> NewtonReciprocalSqrt(D d, Vec<D> x, Vec<D> r) {
+  const Vec<D> half_xr = hn::Mul(hn::Mul(hn::Set(d, 0.5f), x), r);
+  return hn::Mul(r, hn::NegMulAdd(half_xr, r, hn::Set(d, 1.5f)));
+}
+
+// Approximate reciprocal and reciprocal root with relative error below 2^-13.9 on every target: one Newton
+// step from 11.5 bits (x86); from 8 bits (Arm) it leaves 2^-16.
 template <class D>
 HWY_INLINE Vec<D> FastReciprocal(D d, Vec<D> x) {
 #if HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_EMU128
   return hn::Div(hn::Set(d, 1.0f), x);
 #else
   const Vec<D> r = hn::ApproximateReciprocal(x);
-#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX3
-  (void)d;
-  return r;
-#else
-  // One Newton step from 11.5 bits (x86); from 8 bits (Arm) it leaves 2^-16.
-  return hn::Mul(r, hn::NegMulAdd(x, r, hn::Set(d, 2.0f)));
-#endif
+  return kCoarseReciprocals ? r : NewtonReciprocal(d, x, r);
 #endif
 }
 
@@ -63,14 +75,15 @@ HWY_INLINE Vec<D> FastReciprocalSqrt(D d, Vec<D> x) {
   return hn::Div(hn::Set(d, 1.0f), hn::Sqrt(x));
 #else
   const Vec<D> r = hn::ApproximateReciprocalSqrt(x);
-#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX3
-  (void)d;
-  return r;
-#else
-  const Vec<D> half_xr = hn::Mul(hn::Mul(hn::Set(d, 0.5f), x), r);
-  return hn::Mul(r, hn::NegMulAdd(half_xr, r, hn::Set(d, 1.5f)));
+  return kCoarseReciprocals ? r : NewtonReciprocalSqrt(d, x, r);
 #endif
-#endif
+}
+
+// The latter with a Newton step on every target, for what is to be of unit length.
+template <class D>
+HWY_INLINE Vec<D> RefinedReciprocalSqrt(D d, Vec<D> x) {
+  const Vec<D> r = FastReciprocalSqrt(d, x);
+  return kCoarseReciprocals ? NewtonReciprocalSqrt(d, x, r) : r;
 }
 
 // x, a whole number or NaN, as an integer; NaN gives any. Highway's SCALAR and EMU128 cast it, which is

@@ -2,6 +2,7 @@
 // alpha_x, alpha_y; exponent):
 //
 // Density: e + e_tail and w such that D(H/|H|) / |H|^4 = w exp(LogDensity) / (pi e^2) for any half vector H.
+// Where kDensityOfCosine, Norm instead: pi D = Norm exp(LogDensity).
 //
 // LogDensity: used where kHasExponent. CarefulLogDensity: the same as two numbers in float lanes, because its
 // rounding error is multiplied by up to 104.
@@ -66,7 +67,7 @@ HWY_INLINE Vec<D> TimesPiNormalDensity(D d, Vec<D> factor, Vec<D> mx, Vec<D> my,
   } else {
     const Vec<D> zero = hn::Zero(d);
     Vec<D> e, e_tail, w;
-    Dist::template Density<Care::kCareful>(d, e, e_tail, w, mx, my, mz, p...);
+    Dist::template Density<Care::kCareful>(d, e, e_tail, w, mx, my, mz, zero, zero, zero, p...);
     const Vec<D> n = hn::Mul(w, factor);
     Vec<D> q;
     if constexpr (A == Accuracy::kFast) {
@@ -119,11 +120,13 @@ struct LambdaOp {
 };
 
 // Smith's Lambda. That of sheared slopes in double lanes: the square of a rounded cosine of the mesosurface
-// is off by its rounding twice.
+// is off by its rounding twice. kFast too where a mean slope leaves that cosine subnormal.
 template <class Dist, Accuracy A, class D, class... P>
 HWY_INLINE Vec<D> Lambda(D d, Vec<D> vx, Vec<D> vy, Vec<D> vz, P... p) {
   Vec<D> lambda, unused;
-  if constexpr (kShears<P...>) {
+  if constexpr (sizeof...(P) > 3) {
+    InDouble2<InStandard<LambdaOp<Dist>>>(d, lambda, unused, vx, vy, vz, p...);
+  } else if constexpr (kShears<P...>) {
     Precisely<LambdaOp<Dist>, A>(d, lambda, unused, vx, vy, vz, p...);
   } else {
     LambdaOp<Dist>::template Run<A>(d, lambda, unused, vx, vy, vz, p...);
@@ -242,25 +245,102 @@ HWY_INLINE Vec<D> VisibleNormalDensity(D d, Vec<D> vx, Vec<D> vy, Vec<D> vz, Vec
   }
 }
 
-// Azimuth of Walter 2007 Eq. 29 and a normal from slopes r (alpha_x cos phi, alpha_y sin phi) (Heitz 2014
-// section 5.4): m = normalize(alpha_x r cos(2 pi u2), alpha_y r sin(2 pi u2), z) and pdf = |.|^3 / area.
+// y + y_tail = (alpha_x cos phi)^2 + (alpha_y sin phi)^2 of the SinCosOfEighth of phi, whose cosine and sine
+// have changed places where `odd`. Without tails in kFast.
 template <Accuracy A, class D>
-HWY_INLINE void NormalFromSlopes(D d, Vec<D>& mx, Vec<D>& my, Vec<D>& mz, Vec<D>& pdf, Vec<D> r, Vec<D> z,
-                                 Vec<D> u2, Vec<D> area, Vec<D> alpha_x, Vec<D> alpha_y) {
-  Vec<D> sin, cos;
-  SinCos2Pi<A>(d, u2, sin, cos);
-  const Vec<D> x = hn::Mul(hn::Mul(alpha_x, cos), r);
-  const Vec<D> y = hn::Mul(hn::Mul(alpha_y, sin), r);
-  const Vec<D> length2 = Dot(x, y, z, x, y, z);
-  Vec<D> both, inverse;  // 1/(|.| area), 1/|.|
+HWY_INLINE void AzimuthRoughness2(D d, Vec<D>& y, Vec<D>& y_tail, hn::Mask<D> odd, Vec<D> s, Vec<D> s_tail,
+                                  Vec<D> c, Vec<D> c_tail, Vec<D> alpha_x, Vec<D> alpha_y) {
+  const Vec<D> of_c = hn::IfThenElse(odd, alpha_y, alpha_x), of_s = hn::IfThenElse(odd, alpha_x, alpha_y);
   if constexpr (A == Accuracy::kFast) {
-    inverse = FastReciprocalSqrt(d, length2);
-    both = hn::Mul(inverse, FastReciprocal(d, area));
+    const Vec<D> a = hn::Mul(of_c, c), b = hn::Mul(of_s, s);
+    y = hn::MulAdd(a, a, hn::Mul(b, b));
+    y_tail = hn::Zero(d);
   } else {
-    both = hn::Div(Const(d, 1), hn::Mul(hn::Sqrt(length2), area));
-    inverse = hn::Mul(both, area);
+    Vec<D> a, b, a_tail, b_tail;
+    TwoProduct(d, of_c, c, a, a_tail);
+    TwoProduct(d, of_s, s, b, b_tail);
+    a_tail = hn::MulAdd(of_c, c_tail, a_tail);
+    b_tail = hn::MulAdd(of_s, s_tail, b_tail);
+    const Vec<D> tail = hn::MulAdd(a, a_tail, hn::Mul(b, b_tail));
+    // The larger square enters last; what is rounded off then is known to half an ulp of the rest.
+    a = hn::Abs(a);
+    b = hn::Abs(b);
+    const Vec<D> large = hn::Max(a, b), small = hn::Min(a, b);
+    const Vec<D> rest = hn::MulAdd(small, small, hn::Add(tail, tail));
+    y = FusedMulAdd(d, large, large, rest);
+    y_tail = hn::Add(rest, FusedMulSub(d, large, large, y));
   }
-  pdf = hn::Mul(hn::Mul(length2, both), length2);
+}
+template <Accuracy A, class D>
+HWY_INLINE void AzimuthRoughness2(D d, Vec<D>& y, Vec<D>& y_tail, hn::Mask<D>, Vec<D>, Vec<D>, Vec<D>, Vec<D>,
+                                  Vec<D> alpha) {
+  y = hn::Mul(alpha, alpha);
+  y_tail = A == Accuracy::kFast ? hn::Zero(d) : FusedMulSub(d, alpha, alpha, y);
+}
+
+// Azimuth of Walter 2007 Eq. 29 and a normal whose squared slope at unit roughness is t/z, r^2 = t z (Heitz
+// 2014 section 5.4): M = (alpha_x r cos(2 pi u2), alpha_y r sin(2 pi u2), z), m = M/|M|, and with n = z + t
+// (alpha_x^2 cos^2 + alpha_y^2 sin^2) |M|^2 = z n. w + w_tail = 1 - u1. z = w, pdf = n |M| / (pi alpha_x
+// alpha_y); or kUnitZ: z = 1, pdf = w n |M| / (pi alpha_x alpha_y). kCareful: all roundings of the density
+// but two are put back.
+template <bool kUnitZ, Care kCare, Accuracy A, class D, class... P>
+HWY_INLINE void NormalFromSlopes(D d, Vec<D>& mx, Vec<D>& my, Vec<D>& mz, Vec<D>& pdf, Vec<D> r, Vec<D> t,
+                                 Vec<D> t_tail, Vec<D> w, Vec<D> w_tail, Vec<D> u2, P... p) {
+  constexpr bool kTails = kCare == Care::kCareful && A != Accuracy::kFast && kIsFloat<D>;
+  Vec<D> q, s, s_tail, c, c_tail, sin, cos;
+  hn::Mask<D> odd;
+  SinCosOfEighth<A>(d, u2, q, s, s_tail, c, c_tail);
+  TurnSinCos(d, q, s, c, sin, cos, odd);
+  const Vec<D> alpha_x = AlphaX(p...), alpha_y = AlphaY(p...), pi = Const(d, kPi), one = Const(d, 1);
+  const Vec<D> x = hn::Mul(hn::Mul(alpha_x, cos), r), y = hn::Mul(hn::Mul(alpha_y, sin), r);
+  const Vec<D> z = kUnitZ ? one : w;
+  Vec<D> roughness2, roughness2_tail;
+  AzimuthRoughness2<A>(d, roughness2, roughness2_tail, odd, s, s_tail, c, c_tail, p...);
+  const Vec<D> alpha2 = hn::Mul(alpha_x, alpha_y), area = hn::Mul(alpha2, pi);
+  Vec<D> inverse;  // 1/|M|
+  if constexpr (kTails) {
+    Vec<D> slope2, slope2_tail, n, n_tail;
+    TwoProduct(d, roughness2, t, slope2, slope2_tail);
+    TwoSum(z, slope2, n, n_tail);
+    slope2_tail = hn::MulAdd(roughness2, t_tail, hn::MulAdd(roughness2_tail, t, slope2_tail));
+    n_tail = hn::Add(n_tail, kUnitZ ? slope2_tail : hn::Add(slope2_tail, w_tail));
+    Vec<D> length2 = n, length2_tail = n_tail;
+    if constexpr (!kUnitZ) {
+      TwoProduct(d, w, n, length2, length2_tail);
+      length2_tail = hn::MulAdd(w, n_tail, hn::MulAdd(w_tail, n, length2_tail));
+    }
+    const Vec<D> length = hn::Sqrt(length2);
+    const Vec<D> both = hn::Div(one, hn::Mul(length, area)), over_area = hn::Mul(both, length);
+    inverse = hn::Mul(both, area);
+    const Vec<D> length_tail = hn::Mul(hn::Mul(inverse, Const(d, 0.5)),
+                                       hn::Sub(length2_tail, FusedMulSub(d, length, length, length2)));
+    Vec<D> f, f_tail;
+    TwoProduct(d, n, length, f, f_tail);
+    f_tail = hn::Add(f_tail, hn::MulAdd(n, length_tail, hn::Mul(n_tail, length)));
+    if constexpr (kUnitZ) {
+      const Vec<D> rest = hn::MulAdd(f_tail, w, hn::Mul(f, w_tail));
+      TwoProduct(d, f, w, f, f_tail);
+      f_tail = hn::Add(f_tail, rest);
+    }
+    const Vec<D> alpha2_tail = FusedMulSub(d, alpha_x, alpha_y, alpha2);
+    const Vec<D> pi_tail = Const(d, kPi - static_cast<double>(static_cast<float>(kPi)));
+    const Vec<D> area_tail =
+        hn::MulAdd(alpha2, pi_tail, hn::MulAdd(alpha2_tail, pi, FusedMulSub(d, alpha2, pi, area)));
+    pdf = hn::Mul(f, over_area);
+    const Vec<D> rest = hn::Sub(hn::NegMulAdd(pdf, area_tail, f_tail), FusedMulSub(d, pdf, area, f));
+    pdf = hn::MulAdd(rest, over_area, pdf);
+  } else {
+    const Vec<D> n = hn::MulAdd(roughness2, t, z), length2 = kUnitZ ? n : hn::Mul(z, n);
+    const Vec<D> f = kUnitZ ? hn::Mul(n, w) : n;
+    if constexpr (A == Accuracy::kFast) {
+      inverse = RefinedReciprocalSqrt(d, length2);
+      pdf = hn::Mul(hn::Mul(f, FastReciprocal(d, area)), hn::Mul(length2, inverse));
+    } else {
+      const Vec<D> both = hn::Div(one, hn::Mul(hn::Sqrt(length2), area));
+      inverse = hn::Mul(both, area);
+      pdf = hn::Mul(hn::Mul(f, both), length2);
+    }
+  }
   mx = hn::Mul(x, inverse);
   my = hn::Mul(y, inverse);
   mz = hn::Mul(z, inverse);
@@ -305,7 +385,7 @@ struct ShearedSampleOp {
   template <class DD, class... P>
   static HWY_INLINE void Run(DD dd, Vec<DD>& mx, Vec<DD>& my, Vec<DD>& mz, Vec<DD>& pdf, Vec<DD>& unused0,
                              Vec<DD>& unused1, Vec<DD> u1, Vec<DD> u2, P... p) {
-    Dist::template SampleNormal<Accuracy::kStandard>(dd, mx, my, mz, pdf, u1, u2, Const(dd, 1));
+    Dist::template SampleNormal<Care::kPlain, Accuracy::kStandard>(dd, mx, my, mz, pdf, u1, u2, Const(dd, 1));
     ShearNormal(dd, mx, my, mz, pdf, p...);
     unused0 = unused1 = pdf;
   }
@@ -332,7 +412,7 @@ HWY_INLINE void SampleNormal(D d, Vec<D>& mx, Vec<D>& my, Vec<D>& mz, Vec<D>& pd
     Vec<D> unused0, unused1;
     InDouble6<ShearedSampleOp<Dist>>(d, mx, my, mz, pdf, unused0, unused1, u1, u2, p...);
   } else {
-    Dist::template SampleNormal<A>(d, mx, my, mz, pdf, u1, u2, p...);
+    Dist::template SampleNormal<Care::kCareful, A>(d, mx, my, mz, pdf, u1, u2, p...);
   }
 }
 

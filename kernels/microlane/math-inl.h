@@ -240,30 +240,35 @@ HWY_INLINE Vec<D> Exp(D d, Vec<D> x, Vec<D> tail) {
   return ExpTimes<A>(d, x, tail, Const(d, 1));
 }
 
+// (2 atanh(s) - 2 s)/s^3 of y = s^2, |s| <= 3 - 2 sqrt 2.
+template <Accuracy A, class D>
+HWY_INLINE Vec<D> TwoAtanhPolynomial(D d, Vec<D> y) {
+  if constexpr (A == Accuracy::kFast) {
+    // sollya: fpminimax((2*atanh(sqrt(x))/sqrt(x)-2)/x, 1, [|24...|], [1b-60;0.02945], absolute): 2^-21
+    return Polynomial(d, y, {0.666634619235992431640625, 0.40861070156097412109375});
+  } else if constexpr (kIsFloat<D>) {
+    // as above, degree 2: 2^-28.5
+    return Polynomial(d, y,
+                      {0.66666686534881591796875, 0.3998853862285614013671875, 0.29587137699127197265625});
+  } else {
+    // as above, degree 7, [|D...|]: 2^-65.7
+    return Polynomial(d, y,
+                      {0.66666666666666662965923251249478198587894439697265625,
+                       0.400000000000053201887340037501417100429534912109375,
+                       0.285714285691719804827215511977556161582469940185546875,
+                       0.222222226558418167741137949633412063121795654296875,
+                       0.1818177369468834403409829292036283303625676441192626953125,
+                       0.1538721608392169259982625296399532352365553379058837890625,
+                       0.13246652407214931995645648068492300808429718017578125,
+                       0.1328707950828539596788147036932056963086128234863281250});
+  }
+}
+
 // 2 atanh(s) for |s| <= 3 - 2 sqrt 2, where log((1 + s)/(1 - s)) is meant.
 template <Accuracy A, class D>
 HWY_INLINE Vec<D> TwoAtanh(D d, Vec<D> s) {
   const Vec<D> y = hn::Mul(s, s);
-  Vec<D> p;
-  if constexpr (A == Accuracy::kFast) {
-    // sollya: fpminimax((2*atanh(sqrt(x))/sqrt(x)-2)/x, 1, [|24...|], [1b-60;0.02945], absolute): 2^-21
-    p = Polynomial(d, y, {0.666634619235992431640625, 0.40861070156097412109375});
-  } else if constexpr (kIsFloat<D>) {
-    // as above, degree 2: 2^-28.5
-    p = Polynomial(d, y, {0.66666686534881591796875, 0.3998853862285614013671875, 0.29587137699127197265625});
-  } else {
-    // as above, degree 7, [|D...|]: 2^-65.7
-    p = Polynomial(d, y,
-                   {0.66666666666666662965923251249478198587894439697265625,
-                    0.400000000000053201887340037501417100429534912109375,
-                    0.285714285691719804827215511977556161582469940185546875,
-                    0.222222226558418167741137949633412063121795654296875,
-                    0.1818177369468834403409829292036283303625676441192626953125,
-                    0.1538721608392169259982625296399532352365553379058837890625,
-                    0.13246652407214931995645648068492300808429718017578125,
-                    0.1328707950828539596788147036932056963086128234863281250});
-  }
-  return hn::MulAdd(s, Const(d, 2), hn::Mul(hn::Mul(s, y), p));
+  return hn::MulAdd(s, Const(d, 2), hn::Mul(hn::Mul(s, y), TwoAtanhPolynomial<A>(d, y)));
 }
 
 // x = 2^k m with m in [sqrt(1/2), sqrt(2)), x positive and normal.
@@ -281,23 +286,46 @@ HWY_INLINE void SplitExponent(D d, Vec<D> x, Vec<D>& k, Vec<D>& m) {
   m = hn::BitCast(d, mantissa);
 }
 
-// -log(1 - u) for u in [0, 1), keeping the relative accuracy of small u.
+// y + y_tail = -log(1 - u) for u in [0, 1), keeping the relative accuracy of small u. y_tail is what y lacks
+// but in kFast.
 template <Accuracy A, class D>
-HWY_INLINE Vec<D> NegLog1m(D d, Vec<D> u) {
-  const Vec<D> one = Const(d, 1);
+HWY_INLINE void NegLog1m(D d, Vec<D> u, Vec<D>& y, Vec<D>& y_tail) {
+  const Vec<D> zero = hn::Zero(d), one = Const(d, 1), two = Const(d, 2);
   // Total function: u >= 1 behaves as the largest number below 1; NaN passes.
   const Vec<D> largest = Const(d, kIsFloat<D> ? 0x1.fffffep-1 : 0x1.fffffffffffffp-1);
   u = hn::IfThenElse(hn::Ge(u, one), largest, u);
   const Vec<D> w = hn::Sub(one, u);
-  const Vec<D> error = hn::Sub(hn::Sub(one, w), u);  // 1 - u = w + error, exactly
   Vec<D> k, m;
   SplitExponent(d, w, k, m);
-  const Vec<D> f = hn::Sub(m, one);
-  // log(m + e) = 2 atanh(s), s = (f + e)/(2 + f + e); the error term matters only where k = 0, m = w.
-  const Vec<D> e = hn::IfThenElseZero(hn::Eq(k, hn::Zero(d)), error);
-  const Vec<D> s = hn::Div(hn::Add(f, e), hn::Add(hn::Add(f, Const(d, 2)), e));
-  const Vec<D> log_m = TwoAtanh<A>(d, s);
-  return hn::Neg(hn::MulAdd(k, Const(d, kLn2High<D>), hn::MulAdd(k, Const(d, kLn2Low<D>), log_m)));
+  // log(m) = 2 atanh(n/(2 + n)) of n = m - 1, which is exact from u: w has lost bits of a small one.
+  const hn::RebindToUnsigned<D> du;
+  const auto shift = hn::Sub(hn::BitCast(du, w), hn::BitCast(du, m));
+  const Vec<D> scale = hn::BitCast(d, hn::Sub(hn::BitCast(du, one), shift));  // 2^-k
+  const Vec<D> n = hn::NegMulAdd(scale, u, hn::Sub(scale, one));
+  const Vec<D> sum = hn::Add(n, two);
+  const Vec<D> k_low = hn::Mul(k, Const(d, -kLn2Low<D>));
+  if constexpr (A == Accuracy::kFast) {
+    const Vec<D> log_m = TwoAtanh<A>(d, hn::Div(n, sum));
+    y = hn::NegMulAdd(k, Const(d, kLn2High<D>), hn::Sub(k_low, log_m));
+    y_tail = zero;
+  } else {
+    const Vec<D> r = hn::Div(one, sum), s = hn::Mul(n, r), s2 = hn::Mul(s, s);
+    const Vec<D> sum_tail = hn::Sub(n, hn::Sub(sum, two));
+    const Vec<D> rest = hn::NegMulAdd(s, sum_tail, hn::NegMulAdd(s, sum, n));
+    const Vec<D> low = hn::NegMulAdd(hn::Mul(s, s2), TwoAtanhPolynomial<A>(d, s2),
+                                     hn::NegMulAdd(hn::Add(r, r), rest, k_low));
+    const Vec<D> k_high = hn::Mul(k, Const(d, -kLn2High<D>));
+    Vec<D> high, high_tail;
+    FastTwoSum(k_high, hn::Mul(s, Const(d, -2)), high, high_tail);
+    FastTwoSum(high, hn::Add(high_tail, low), y, y_tail);
+  }
+}
+
+template <Accuracy A, class D>
+HWY_INLINE Vec<D> NegLog1m(D d, Vec<D> u) {
+  Vec<D> y, y_tail;
+  NegLog1m<A>(d, u, y, y_tail);
+  return y;
 }
 
 // log(x) for positive normal x.
@@ -310,14 +338,15 @@ HWY_INLINE Vec<D> Log(D d, Vec<D> x) {
   return hn::MulAdd(k, Const(d, kLn2High<D>), hn::MulAdd(k, Const(d, kLn2Low<D>), log_m));
 }
 
-// sin(2 pi u), cos(2 pi u) for |u| < 2^21 (2^50 in double): the reduction to an eighth of a turn is exact.
+// s + s_tail = sin(2 pi r), c + c_tail = cos(2 pi r) of r = u - q/4, an eighth of a turn at most, for |u| <
+// 2^21 (2^50 in double): the reduction is exact. Tails are 0 in kFast.
 template <Accuracy A, class D>
-HWY_INLINE void SinCos2Pi(D d, Vec<D> u, Vec<D>& sin, Vec<D>& cos) {
-  const hn::RebindToSigned<D> di;
-  const Vec<D> q = hn::Round(hn::Mul(u, Const(d, 4)));
+HWY_INLINE void SinCosOfEighth(D d, Vec<D> u, Vec<D>& q, Vec<D>& s, Vec<D>& s_tail, Vec<D>& c,
+                               Vec<D>& c_tail) {
+  q = hn::Round(hn::Mul(u, Const(d, 4)));
   const Vec<D> r = hn::NegMulAdd(q, Const(d, 0.25), u);
   const Vec<D> y = hn::Mul(r, r);
-  Vec<D> s, c;
+  s_tail = c_tail = hn::Zero(d);
   if constexpr (A == Accuracy::kFast) {
     // sollya: fpminimax(sin(2*pi*sqrt(x))/sqrt(x), 2, [|24...|], [1b-40;1b-6], relative): 2^-19.3; cos:
     // 2^-16.4
@@ -328,10 +357,14 @@ HWY_INLINE void SinCos2Pi(D d, Vec<D> u, Vec<D>& sin, Vec<D>& cos) {
     // with 2 pi in two parts; fpminimax(cos(2*pi*sqrt(x)), 4, [|24...|], [1b-40;1b-6], relative): 2^-30.8
     const Vec<D> p = Polynomial(
         d, y, {-41.341701507568359375, 81.60486602783203125, -76.654205322265625, 39.870723724365234375});
-    s = hn::MulAdd(r, Const(d, 6.283185482025146484375),
-                   hn::Mul(r, hn::MulAdd(y, p, Const(d, -1.7484555e-7))));
-    c = Polynomial(
-        d, y, {1, -19.739208221435546875, 64.939178466796875, -85.42949676513671875, 58.814777374267578125});
+    const Vec<D> low = hn::Mul(r, hn::MulAdd(y, p, Const(d, -1.7484555e-7)));
+    const Vec<D> two_pi = Const(d, 6.283185482025146484375), one = Const(d, 1);
+    s = hn::MulAdd(r, two_pi, low);
+    s_tail = hn::Add(hn::MulSub(r, two_pi, s), low);
+    const Vec<D> rest = Polynomial(
+        d, y, {-19.739208221435546875, 64.939178466796875, -85.42949676513671875, 58.814777374267578125});
+    c = hn::MulAdd(y, rest, one);
+    c_tail = hn::MulAdd(y, rest, hn::Sub(one, c));
   } else {
     // as above, degrees 7 and 8, [|53...|]: 2^-61.5 and 2^-61.4
     const Vec<D> p = Polynomial(d, y,
@@ -354,16 +387,30 @@ HWY_INLINE void SinCos2Pi(D d, Vec<D> u, Vec<D>& sin, Vec<D>& cos) {
          -1.660302315941826645229184578056447207927703857421875,
          -0.5434452619824003960502523113973438739776611328125});
   }
+}
+
+// sin(2 pi u), cos(2 pi u) for |u| < 2^21 (2^50 in double) from SinCosOfEighth; `odd`: they changed places.
+template <class D>
+HWY_INLINE void TurnSinCos(D d, Vec<D> q, Vec<D> s, Vec<D> c, Vec<D>& sin, Vec<D>& cos, hn::Mask<D>& odd) {
+  const hn::RebindToSigned<D> di;
   // Quarter turns: odd ones swap, 2 and 3 negate the sine, 1 and 2 the cosine.
   const auto qi = ToInteger(di, q);
   using I = hn::TFromD<decltype(di)>;
   constexpr int kSign = sizeof(I) * 8 - 2;
   const auto one = hn::Set(di, I{1}), two = hn::Set(di, I{2});
-  const auto odd = hn::MaskFromVec(hn::BitCast(d, hn::VecFromMask(di, hn::Eq(hn::And(qi, one), one))));
+  odd = hn::MaskFromVec(hn::BitCast(d, hn::VecFromMask(di, hn::Eq(hn::And(qi, one), one))));
   const auto sin_sign = hn::BitCast(d, hn::ShiftLeft<kSign>(hn::And(qi, two)));
   const auto cos_sign = hn::BitCast(d, hn::ShiftLeft<kSign>(hn::And(hn::Add(qi, one), two)));
   sin = hn::Xor(hn::IfThenElse(odd, c, s), sin_sign);
   cos = hn::Xor(hn::IfThenElse(odd, s, c), cos_sign);
+}
+
+template <Accuracy A, class D>
+HWY_INLINE void SinCos2Pi(D d, Vec<D> u, Vec<D>& sin, Vec<D>& cos) {
+  Vec<D> q, s, s_tail, c, c_tail;
+  hn::Mask<D> odd;
+  SinCosOfEighth<A>(d, u, q, s, s_tail, c, c_tail);
+  TurnSinCos(d, q, s, c, sin, cos, odd);
 }
 
 // Azimuths' difference from the sine and cosine of plane vectors: phi = turns pi/4 + atan(slope), |slope| <=

@@ -79,6 +79,26 @@ class NormalLanes {
                                                accuracy, n);
   }
 
+  // Directions wo that the ideal mirror (F = 1) reflects wi into, about visible normals of
+  // SampleVisibleNormal: weight = f |cos(theta_o)| / pdf = G2/G1 with height-correlated masking (Heitz 2014
+  // Eq. 99), never above 1; pdf is that of wo, in 1/sr. Another Fresnel multiplies the weight. lobe is 1; it
+  // is 0, and with it every output, where wo is not on wi's side. sample_visible_reflection.
+  static void SampleVisibleReflection(std::size_t n, const Directions<T>& wi, const T* u1, const T* u2,
+                                      const P&... p, MutableDirections<T> wo, T* weight, T* pdf, T* lobe,
+                                      Accuracy accuracy = Accuracy::kStandard) {
+    Run<NormalQuantity::kSampleReflection>(
+        CallBuilder<T>().In(wi).In(u1).In(u2).Out(wo).Out(weight).Out(pdf).Out(lobe), p..., accuracy, n);
+  }
+
+  // The same about normals of SampleVisibleNormalBounded, which loses fewer samples.
+  // sample_visible_reflection_bounded.
+  static void SampleVisibleReflectionBounded(std::size_t n, const Directions<T>& wi, const T* u1, const T* u2,
+                                             const P&... p, MutableDirections<T> wo, T* weight, T* pdf,
+                                             T* lobe, Accuracy accuracy = Accuracy::kStandard) {
+    Run<NormalQuantity::kSampleReflectionBounded>(
+        CallBuilder<T>().In(wi).In(u1).In(u2).Out(wo).Out(weight).Out(pdf).Out(lobe), p..., accuracy, n);
+  }
+
  private:
   template <NormalQuantity::What kWhat>
   static void Run(CallBuilder<T>& call, const P&... p, Accuracy accuracy, std::size_t n) {
@@ -98,6 +118,8 @@ class NormalCalls : Lanes... {
   using Lanes::SampleNormal...;
   using Lanes::SampleVisibleNormal...;
   using Lanes::SampleVisibleNormalBounded...;
+  using Lanes::SampleVisibleReflection...;
+  using Lanes::SampleVisibleReflectionBounded...;
 };
 
 template <Normals kNormals, class T>

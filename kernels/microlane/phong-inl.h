@@ -16,13 +16,10 @@ namespace {
 struct Phong {
   static constexpr bool kHasExponent = true, kMaskingInDouble = true, kDensityOfCosine = true;
 
-  // D/|H|^4 = (exponent + 2)/(2 pi |H|^4) cos^exponent: e = |H|^2.
-  template <Care, class D>
-  static HWY_INLINE void Density(D d, Vec<D>& e, Vec<D>& e_tail, Vec<D>& w, Vec<D> hx, Vec<D> hy, Vec<D> hz,
-                                 Vec<D> exponent) {
-    e = Dot(hx, hy, hz, hx, hy, hz);
-    e_tail = hn::Zero(d);
-    w = hn::MulAdd(exponent, Const(d, 0.5), Const(d, 1));
+  // pi D = Norm cos^exponent.
+  template <class D>
+  static HWY_INLINE Vec<D> Norm(D d, Vec<D> exponent) {
+    return hn::MulAdd(exponent, Const(d, 0.5), Const(d, 1));
   }
 
   // exponent log(cos) = -exponent/2 log(1 + tan^2), log1p keeping its accuracy near the normal.
@@ -72,12 +69,11 @@ struct Phong {
   }
 
   // Walter 2007 Eqs. 31, 32: cos = u1^(1/(exponent + 2)); pdf = D cos = (exponent + 2)/(2 pi) u1 / cos.
-  template <Accuracy A, class D>
+  template <Care, Accuracy A, class D>
   static HWY_INLINE void SampleNormal(D d, Vec<D>& mx, Vec<D>& my, Vec<D>& mz, Vec<D>& pdf, Vec<D> u1,
                                       Vec<D> u2, Vec<D> exponent) {
     const Vec<D> one = Const(d, 1), zero = hn::Zero(d);
     u1 = BelowOne(d, u1);
-    const Vec<D> n = hn::Add(exponent, Const(d, 2));
     Vec<D> high, low;
     InDouble2<RootOp>(d, high, low, u1, exponent);
     const Vec<D> cos_m = Exp<A>(d, high, low);
@@ -97,7 +93,9 @@ struct Phong {
     mx = hn::Mul(sin_m, cos_phi);
     my = hn::Mul(sin_m, sin_phi);
     mz = ZeroIf(none, cos_m);
-    pdf = ZeroIf(none, hn::Mul(hn::Mul(n, Const(d, 0.5 / kPi)), Div<A>(d, u1, cos_m)));
+    // u1 last, which may be subnormal.
+    const Vec<D> norm = hn::MulAdd(exponent, Const(d, 0.5 / kPi), Const(d, 1 / kPi));
+    pdf = ZeroIf(none, hn::Mul(Div<A>(d, norm, cos_m), u1));
   }
 
  private:

@@ -112,13 +112,13 @@ HWY_INLINE void UnitDots(D d, Vec<D>& a, Vec<D>& b, Vec<D>& w, Vec<D>& w_low, Ve
 #endif
 }
 
-// The terms of TermsOfDots, i.H, o.H and H.H of H = i + e o in float lanes to a rounding or two. `ill` where
-// more is lost: lengths not near 1, H near 0, a facet seen edge-on.
+// The terms of TermsOfDots, i.H, o.H, H.H and its square, of H = i + e o in float lanes to a rounding or two.
+// `ill` where more is lost: lengths not near 1, H near 0, a facet seen edge-on.
 template <Lobes kLobes, class D>
-HWY_INLINE void InterfaceTermsSplit(D d, Vec<D>& ih, Vec<D>& oh, Vec<D>& h2, Vec<D>& c2, Vec<D>& s2,
-                                    Vec<D>& g2, Vec<D>& c2_plus_g2, hn::Mask<D>& ill, hn::Mask<D> transmits,
-                                    Vec<D> ix, Vec<D> iy, Vec<D> iz, Vec<D> ox, Vec<D> oy, Vec<D> oz,
-                                    Vec<D> e, Vec<D> eta, Vec<D> k) {
+HWY_INLINE void InterfaceTermsSplit(D d, Vec<D>& ih, Vec<D>& oh, Vec<D>& h2, Vec<D>& h4, Vec<D>& c2,
+                                    Vec<D>& s2, Vec<D>& g2, Vec<D>& c2_plus_g2, hn::Mask<D>& ill,
+                                    hn::Mask<D> transmits, Vec<D> ix, Vec<D> iy, Vec<D> iz, Vec<D> ox,
+                                    Vec<D> oy, Vec<D> oz, Vec<D> e, Vec<D> eta, Vec<D> k) {
   Vec<D> a, b, w, w_low;
   UnitDots(d, a, b, w, w_low, ix, iy, iz, ox, oy, oz);
   const Vec<D> half = Const(d, 0.5), one = Const(d, 1), two = Const(d, 2);
@@ -129,7 +129,10 @@ HWY_INLINE void InterfaceTermsSplit(D d, Vec<D>& ih, Vec<D>& oh, Vec<D>& h2, Vec
   const Vec<D> g2r = hn::Add(FusedMulSub(d, eta, eta, s2_high), low);
   const Vec<D> sum_r = hn::Add(w, hn::MulAdd(two, low, k));
   if constexpr (kLobes == Lobes::kReflection) {
-    h2 = hn::MulAdd(two, w, hn::MulAdd(two, w_low, hn::Add(a, b)));
+    const Vec<D> rest = hn::MulAdd(two, w_low, hn::Add(a, b));
+    h2 = hn::MulAdd(two, w, rest);
+    const Vec<D> h2_tail = hn::Add(hn::MulSub(two, w, h2), rest);
+    h4 = hn::Mul(h2, hn::MulAdd(two, h2_tail, h2));
     oh = hn::Mul(hn::Add(h2, hn::Sub(b, a)), half);
     ih = hn::Sub(h2, oh);
     c2 = c2r;
@@ -150,6 +153,7 @@ HWY_INLINE void InterfaceTermsSplit(D d, Vec<D>& ih, Vec<D>& oh, Vec<D>& h2, Vec
     s2 = OfLobe<kLobes>(transmits, hn::NegMulAdd(a, h2, hn::Mul(e2, cross2)), s2r);
     g2 = OfLobe<kLobes>(transmits, hn::MulAdd(eoh, eoh, hn::Mul(hn::NegMulAdd(e2, b, a), h2)), g2r);
     c2_plus_g2 = OfLobe<kLobes>(transmits, hn::Add(c2, g2), sum_r);
+    h4 = hn::Mul(h2, h2);
   }
   const Vec<D> off2 = hn::MulAdd(a, a, hn::Mul(b, b));
   ill = hn::Lt(hn::Mul(h2, h2), hn::MulAdd(off2, Const(d, 0x1p26), Const(d, 0x1p-24)));
@@ -238,9 +242,9 @@ HWY_INLINE void RoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& value, Ve
   Vec<D> e = one;
   if constexpr (kTransmits) e = kReflects ? hn::IfThenElse(transmits, eta, one) : eta;
 
-  constexpr bool kCarefulExponent = Dist::kHasExponent && !kWide && !kFast;
+  constexpr bool kSplit = !kWide && !kFast, kCarefulExponent = Dist::kHasExponent && kSplit;
   Vec<D> hx, hy, hz, hx_tail = zero, hy_tail = zero, hz_tail = zero, scale = one;
-  if constexpr (kCarefulExponent) {
+  if constexpr (kSplit) {
     SumWithTail<kTransmits>(d, hx, hx_tail, ix, ox, e);
     SumWithTail<kTransmits>(d, hy, hy_tail, iy, oy, e);
     SumWithTail<kTransmits>(d, hz, hz_tail, iz, oz, e);
@@ -264,8 +268,7 @@ HWY_INLINE void RoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& value, Ve
   // transmission.
   constexpr Lobes kScaled = kWide ? Lobes::kTransmission : kLobes;
   const Vec<D> k = EtaSquaredMinus1(d, eta);
-  Vec<D> ih, oh, h2, c2, s2, g2, c2_plus_g2 = zero, log_high = zero, log_low = zero;
-  constexpr bool kSplit = !kWide && !kFast;
+  Vec<D> ih, oh, h2, h4, c2, s2, g2, c2_plus_g2 = zero, log_high = zero, log_low = zero;
   if constexpr (kWide || kFast) {
     ih = Dot(ix, iy, iz, hx, hy, hz);
     h2 = Dot(hx, hy, hz, hx, hy, hz);
@@ -292,11 +295,11 @@ HWY_INLINE void RoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& value, Ve
       }
     }
   } else {
-    InterfaceTermsSplit<kLobes>(d, ih, oh, h2, c2, s2, g2, c2_plus_g2, hard, transmits, ix, iy, iz, ox, oy,
-                                oz, e, eta, k);
+    InterfaceTermsSplit<kLobes>(d, ih, oh, h2, h4, c2, s2, g2, c2_plus_g2, hard, transmits, ix, iy, iz, ox,
+                                oy, oz, e, eta, k);
   }
-  const Vec<D> h4 = hn::Mul(h2, h2), norm = OfLobe<kScaled>(transmits, h2, one),
-               norm2 = OfLobe<kScaled>(transmits, h4, one);
+  if constexpr (!kSplit) h4 = hn::Mul(h2, h2);
+  const Vec<D> norm = OfLobe<kScaled>(transmits, h2, one), norm2 = OfLobe<kScaled>(transmits, h4, one);
   if constexpr (!kWide && kFast) {
     const Vec<D> skew = hn::Mul(hn::Sub(ih, oh), Const(d, 0x1p7));
     if constexpr (kReflects) hard = hn::Lt(h2, OfLobe<kLobes>(transmits, zero, hn::Abs(skew)));
@@ -331,10 +334,17 @@ HWY_INLINE void RoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& value, Ve
   auto invalid = hn::Le(least, zero);
   if constexpr (!kReflects) invalid = hn::Or(invalid, hn::Gt(oz, zero));
 
-  // K = w exp(log) / (pi density^2).
-  Vec<D> density, unused, w;
+  // K = w exp(log) / (pi density^2). That of a cosine has |H|^4 there, which cancels from the value in
+  // reflection.
+  Vec<D> density = one, unused = zero, w;
   constexpr Care kDensityCare = kSplit ? Care::kCompensated : Care::kPlain;
-  Dist::template Density<kDensityCare>(d, density, unused, w, hx, hy, hz, p...);
+  constexpr bool kCancels = Dist::kDensityOfCosine && !kPdf;
+  if constexpr (Dist::kDensityOfCosine) {
+    w = Dist::Norm(d, p...);
+  } else {
+    Dist::template Density<kDensityCare>(d, density, unused, w, hx, hy, signed_hz, hx_tail, hy_tail, hz_tail,
+                                         p...);
+  }
 
   // Fresnel, from squares times H.H, with N = p^2 + s^4 and M^2 = N + 2 p s^2: an error of p or N leaves the
   // quotient of the two at half its size or less.
@@ -365,8 +375,14 @@ HWY_INLINE void RoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& value, Ve
   // Everything is over (scaled A density)^2 M^2 masking, with (k H.H)^2 N and 2 p A (M^2 + eta^2 H.H^2) as
   // the Fresnel factors F and T times A^2 M^2. |k H.H| <= A is reached under total internal reflection.
   constexpr double kScale = kWide ? 1 : 0x1p21;
-  const Vec<D> ad = hn::Mul(hn::Mul(density, Const(d, kScale)), a);
-  const Vec<D> denominator = hn::Mul(hn::Mul(hn::Mul(ad, ad), m2), masking);
+  const Vec<D> scaled_a = hn::Mul(a, Const(d, kScale)), ad = hn::Mul(density, scaled_a);
+  Vec<D> last_ad = ad;
+  // Takes up what both factors have lost.
+  if constexpr (kSplit) last_ad = hn::MulAdd(Const(d, 2), FusedMulSub(d, density, scaled_a, ad), ad);
+  Vec<D> ad2 = hn::Mul(ad, last_ad);
+  if constexpr (Dist::kDensityOfCosine)
+    ad2 = hn::Mul(ad2, kCancels ? OfLobe<kLobes>(transmits, h4, one) : h4);
+  const Vec<D> denominator = hn::Mul(hn::Mul(ad2, m2), masking);
   Vec<D> fresnel = one;  // F or T (both lobes: that of the lane), times A^2 M^2
   if constexpr (kNeedsFresnel) {
     Vec<D> f = one, t = one;
@@ -380,7 +396,10 @@ HWY_INLINE void RoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& value, Ve
     fresnel = kReflects && kTransmits ? hn::IfThenElse(transmits, t, f) : kReflects ? f : t;
   }
   constexpr double kFactor = kMaskingFactor<kG> * (kTransmits ? 1 : 0.25);  // of the value over K
-  const Vec<D> ws = hn::Mul(w, Const(d, kScale * kScale / kPi * (kValue && !kPdf ? kFactor : 1)));
+  constexpr double kNorm = kScale * kScale / kPi * (kValue && !kPdf ? kFactor : 1);
+  Vec<D> ws = hn::Mul(w, Const(d, kNorm));
+  if constexpr (kSplit)
+    ws = hn::MulAdd(w, Const(d, kNorm), hn::Mul(w, Const(d, kNorm - static_cast<float>(kNorm))));
   if constexpr (!kWide) {
     // Factors whose products could leave the range. F A^2 M^2 also bounds H.H (for A M <= 2^11 H.H^2), so
     // that rounding has not changed the sign of i.H or o.H, which are H.H/2 for unit vectors.
@@ -408,7 +427,8 @@ HWY_INLINE void RoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& value, Ve
   if constexpr (kValue) {
     // f_r |o.n| = F |H|^4 K/4 G/|i.n|, f_t |o.n| = eta^2 |i.H| |o.H| T K G/|i.n|.
     Vec<D> reflection = one, transmission = one;
-    if constexpr (kReflects) reflection = kTransmits ? hn::Mul(h4, Const(d, 0.25)) : h4;
+    const Vec<D> left_of_h4 = kCancels ? one : h4;
+    if constexpr (kReflects) reflection = kTransmits ? hn::Mul(left_of_h4, Const(d, 0.25)) : left_of_h4;
     if constexpr (kTransmits) {
       const Vec<D> ihoh = kWide ? hn::Mul(hn::Mul(ih, scale), hn::Mul(oh, scale)) : hn::Mul(ih, oh);
       transmission = hn::Mul(ihoh, hn::IfThenElse(radiance, eta2, one));
@@ -482,7 +502,7 @@ HWY_INLINE void SampleRoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& ox,
   const Vec<D> zero = hn::Zero(d), one = Const(d, 1);
   const Vec<D> iz = hn::Abs(iz_signed);
   Vec<D> mx, my, mz, pdf_m;
-  Dist::template SampleNormal<A>(d, mx, my, mz, pdf_m, u1, u2, p...);
+  Dist::template SampleNormal<Care::kPlain, A>(d, mx, my, mz, pdf_m, u1, u2, p...);
   // Below the surface the whole is turned over: m -> -m, then z -> -z.
   mx = FlipSign(d, mx, iz_signed);
   my = FlipSign(d, my, iz_signed);
@@ -490,6 +510,8 @@ HWY_INLINE void SampleRoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& ox,
   const Vec<D> eta2 = hn::Mul(eta, eta), k = EtaSquaredMinus1(d, eta);
   Vec<D> g2 = hn::MulAdd(c, c, k);
   if constexpr (!kWide) hard = hn::Lt(hn::Min(hn::Abs(g2), hn::Abs(c)), Const(d, 0x1p-12));
+  // A density of u1 near 0 may be subnormal.
+  if constexpr (!kWide && Dist::kDensityOfCosine) hard = hn::Or(hard, hn::Lt(pdf_m, Const(d, 0x1p-100)));
   g2 = hn::IfThenElse(hn::Lt(g2, zero), zero, g2);
   const Vec<D> g = Sqrt<A>(d, g2), root = hn::Mul(c, g);
   const Vec<D> s2 = hn::NegMulAdd(c, c, one);

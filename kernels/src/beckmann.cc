@@ -28,12 +28,9 @@ struct G1RationalKernel {
 
 struct SampleNormalWidenedKernel {
   static constexpr std::string_view kId = "beckmann.sample_normal_widened";
-  template <Accuracy A, class D>
-  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, Vec<D> u1, Vec<D> u2,
-                              Vec<D> cos_i, Vec<D> alpha_x, Vec<D> alpha_y) {
-    const Vec<D> factor = Beckmann::Widening<A>(d, cos_i);
-    Beckmann::SampleNormal<A>(d, out.v0, out.v1, out.v2, out.v3, u1, u2, hn::Mul(alpha_x, factor),
-                              hn::Mul(alpha_y, factor));
+  template <Accuracy A, class D, class... V>
+  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, V... in) {
+    Beckmann::SampleNormalWidened<Care::kCareful, A>(d, out.v0, out.v1, out.v2, out.v3, in...);
   }
 };
 

@@ -36,6 +36,11 @@ struct NormalQuantityKernel {
       out.v0 = VisibleNormalDensity<Dist, A>(d, a, b, in...);
     } else if constexpr (kWhat == NormalQuantity::kSampleNormal) {
       SampleNormal<Dist, A>(d, out.v0, out.v1, out.v2, out.v3, a, b, in...);
+    } else if constexpr (kWhat == NormalQuantity::kSampleReflection ||
+                         kWhat == NormalQuantity::kSampleReflectionBounded) {
+      constexpr bool bounded = kWhat == NormalQuantity::kSampleReflectionBounded;
+      Dist::template SampleVisibleReflection<bounded, A>(d, out.v0, out.v1, out.v2, out.v3, out.v4, out.v5, a,
+                                                         b, in...);
     } else {
       constexpr bool bounded = kWhat == NormalQuantity::kSampleVisibleBounded;
       SampleVisibleNormal<Dist, bounded, A>(d, out.v0, out.v1, out.v2, out.v3, a, b, in...);

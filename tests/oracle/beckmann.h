@@ -17,6 +17,8 @@ inline Real RationalG1(const Real& a) {
 struct Beckmann {
   Roughness alpha;
 
+  Real Alphas() const { return alpha.alpha_x + alpha.alpha_y; }
+
   // Heitz 2014, Eq. 82; cos^4, where Eq. 68 prints cos^2.
   Real D(const Vec& m) const {
     if (m.z <= 0) return 0;

@@ -9,6 +9,8 @@ namespace microlane::oracle {
 struct Ggx {
   Roughness alpha;
 
+  Real Alphas() const { return alpha.alpha_x + alpha.alpha_y; }
+
   // Heitz 2014, Eq. 85.
   Real D(const Vec& m) const {
     if (m.z <= 0) return 0;

@@ -22,7 +22,9 @@ struct Call {
   Transport transport;
   int lobe_hint;
   Real* out;
-  Real kappa = 1, direction_kappa = 1;
+  Real kappa = 1, direction_kappa = 1;  // of density and direction
+  Real weight_kappa = 0;                // 0: kappa
+  double weight_curvature = 0;
   double margin = std::numeric_limits<double>::infinity();
 };
 
@@ -72,6 +74,42 @@ void StoreVisibleNormal(const Distribution& distribution, Call& call) {
   call.kappa = call.direction_kappa > unstretched ? call.direction_kappa : unstretched;
 }
 
+// The ideal mirror about a visible normal: Walter 2007, Eqs. 14 and 39; the weight is f |cos(theta_o)| / pdf
+// of Heitz 2014, Eqs. 16 and 99, less what both have in common.
+template <bool kBounded, class Distribution>
+void StoreVisibleReflection(const Distribution& distribution, Call& call) {
+  const Vec wi = Direction(call.in);
+  const Roughness& alpha = distribution.alpha;
+  const Real k = kBounded ? CapBound(wi, alpha) : Real(1);
+  const CapNormal normal = VisibleNormal(wi, call.in[3], call.in[4], alpha, k);
+  const Real side = wi.z < 0 ? -1 : 1;
+  const Vec wo = Reflect(wi, side * normal.m);
+  call.direction_kappa = CapCancellation(normal, alpha);
+  call.margin = static_cast<double>(Real(abs(wo.z) / call.direction_kappa));
+  const bool reflects = call.lobe_hint >= 0 ? call.lobe_hint != 0 : side * wo.z > 0;
+  for (std::size_t i = 0; i < 6; ++i) call.out[i] = 0;
+  if (!reflects) return;
+  Store(wo, call.out);
+  const Real share = (1 + k * normal.view.z) / (1 + normal.view.z);
+  // |wi.n| times Lambda; 2 Lambda a tends to 1 at wi.n = 0.
+  const Real lambda_i =
+      wi.z == 0 ? Real(distribution.GrazingArea(wi)) : Real(abs(wi.z) * distribution.Lambda(wi));
+  const Real lambda_o = abs(wi.z) * distribution.Lambda(wo);
+  const Real shadowed = lambda_o / (abs(wi.z) + lambda_i + lambda_o);
+  call.out[3] = share * (1 - shadowed);
+  call.out[4] = distribution.DVisible(wi, normal.m) / share * ReflectionJacobian(Dot(wi, normal.m));
+  call.out[5] = 1;
+  const Real unstretched = CapCancellation(normal, {1, 1});
+  call.kappa = call.direction_kappa > unstretched ? call.direction_kappa : unstretched;
+  // |d ln(weight)| for changes of wo by 1 along each axis, at most: by 1/|wo.n| and by the length
+  // |(alpha_x wo.x, alpha_y wo.y, wo.z)| = |wo.n| (1 + 2 Lambda_o), along x and y by the alphas.
+  const Real visible = abs(wi.z) + lambda_i + lambda_o, alphas = alpha.alpha_x + alpha.alpha_y;
+  const Real length = abs(wo.z) * (1 + 2 * distribution.Lambda(wo));
+  const Real slope = shadowed * (1 / abs(wo.z) + 1 / length) + abs(wi.z) * alphas / (2 * abs(wo.z) * visible);
+  call.weight_kappa = 1 + call.direction_kappa * slope;
+  call.weight_curvature = static_cast<double>(Real(call.direction_kappa * (1 / abs(wo.z) + alphas / length)));
+}
+
 // A quantity of a distribution by its place in kNormalKernelPlaces.
 template <std::size_t kPlace>
 void OfNormals(Call& call) {
@@ -88,6 +126,9 @@ void OfNormals(Call& call) {
     call.out[0] = normals.DVisible(Direction(call.in), Direction(call.in + 3));
   } else if constexpr (row.what == NormalQuantity::kSampleNormal) {
     StoreNormal(normals, call);
+  } else if constexpr (row.what == NormalQuantity::kSampleReflection ||
+                       row.what == NormalQuantity::kSampleReflectionBounded) {
+    StoreVisibleReflection<row.what == NormalQuantity::kSampleReflectionBounded>(normals, call);
   } else {
     StoreVisibleNormal<row.what == NormalQuantity::kSampleVisibleBounded>(normals, call);
   }
@@ -115,6 +156,7 @@ void Dielectric(Call& call) {
     call.out[4] = sample.pdf;
     call.out[5] = sample.lobe;
     call.kappa = sample.kappa;
+    call.weight_kappa = sample.weight_kappa;
     call.direction_kappa = sample.direction_kappa;
     call.margin = sample.margin;
   } else {
@@ -227,6 +269,7 @@ struct Resolved {
   std::size_t num_inputs = 0;
   std::size_t num_outputs = 0;
   Metric metric[kMaxOutputs] = {};
+  bool weighs[kMaxOutputs] = {};  // the output is a weight
 };
 
 template <std::size_t... kPlace>
@@ -251,8 +294,10 @@ constexpr std::array<Resolved, kNumKernels> Resolve() {
     const Names outputs = Split(kKernels[k].outputs);
     table[k].num_inputs = Split(kKernels[k].inputs).count;
     table[k].num_outputs = outputs.count;
-    for (std::size_t i = 0; i < outputs.count; ++i)
+    for (std::size_t i = 0; i < outputs.count; ++i) {
       table[k].metric[i] = MetricOf(kKernels[k], outputs.name[i]);
+      table[k].weighs[i] = outputs.name[i] == "weight";
+    }
     for (const Entry& entry : kEntries) {
       if (entry.id == kKernels[k].id) table[k].function = entry.function;
     }
@@ -296,7 +341,9 @@ Result Evaluate(std::size_t kernel, const Real* inputs, Transport transport, int
   resolved.function(call);
   result.margin = call.margin;
   for (std::size_t i = 0; i < resolved.num_outputs; ++i) {
-    result.scale[i] = Scale(resolved.metric[i], result.exact[i], call.kappa, call.direction_kappa);
+    const Real& kappa = resolved.weighs[i] && call.weight_kappa != 0 ? call.weight_kappa : call.kappa;
+    result.scale[i] = Scale(resolved.metric[i], result.exact[i], kappa, call.direction_kappa);
+    if (resolved.weighs[i]) result.curvature[i] = call.weight_curvature;
   }
   return result;
 }

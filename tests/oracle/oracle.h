@@ -15,6 +15,9 @@ struct Result {
   // The value whose ulp is the unit of error: exact for kUlp and kExact, 1 for kDirection,
   // |exact| kappa for kConditioned.
   Real scale[kMaxOutputs];
+  // Of kConditioned outputs: kappa holds for errors of the geometry up to a fraction of 1/curvature; beyond
+  // it the output has other slopes.
+  double curvature[kMaxOutputs] = {};
   // Sampling: the least change of wi.m, wo.z or u3, to first order, that turns a decision (side of m, choice
   // by Fresnel, total internal reflection, side of wo). Infinite where nothing was decided by rounding.
   double margin;

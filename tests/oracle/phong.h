@@ -15,6 +15,9 @@ inline Real PhongExponent(const Real& alpha) {
 struct Phong {
   Real exponent;
 
+  // Of RoughDielectric's weight_kappa: no more than 1/|wo.n| adds, as roughness is below 1 and isotropic.
+  static Real Alphas() { return 0; }
+
   // Walter 2007, Eq. 30.
   Real D(const Vec& m) const {
     if (m.z <= 0) return 0;

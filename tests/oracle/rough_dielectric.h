@@ -51,7 +51,8 @@ struct DirectionSample {
   // How far the nearest decision is from turning out otherwise, as a change of wi.m, wo.z or u3.
   double margin = std::numeric_limits<double>::infinity();
   // Amplification of an input rounding by the geometry; see Metric::kConditioned.
-  Real kappa = 1;            // of weight and pdf
+  Real kappa = 1;  // of pdf
+  Real weight_kappa = 1;
   Real direction_kappa = 1;  // of wo
 };
 
@@ -145,14 +146,20 @@ struct RoughDielectric {
     sample.wo = wo;
     sample.weight = c * G2(wi, wo) / (abs(wi.z) * m.z);
     sample.pdf = distribution.D(m) * m.z;
-    sample.kappa = (1 + 1 / abs(c)) * (1 + c * c / abs(g2)) * (1 + 1 / abs(wo.z));
+    const Real geometry = (1 + 1 / abs(c)) * (1 + c * c / abs(g2));
+    sample.kappa = geometry * (1 + 1 / abs(wo.z));
+    // |d ln G| for a change of wo by 1: by 1/|wo.n|, and by the length |(alpha_x wo.x, alpha_y wo.y, wo.z)| =
+    // |wo.n| (1 + 2 Lambda_o).
+    const Real length = abs(wo.z) * (1 + 2 * distribution.Lambda(wo));
+    sample.weight_kappa = geometry * (1 + 1 / abs(wo.z) + distribution.Alphas() / length);
     (lobes == kBoth ? sample.pdf : sample.weight) *= lobe == kReflection ? F : Real(1 - F);
     if (lobe == kReflection) {
       sample.pdf *= ReflectionJacobian(c);
     } else {
       sample.pdf *= RefractionJacobian(c, -cos_t, eta);
       sample.direction_kappa = 1 + c / sqrt(abs(g2));
-      if (g2 <= 0) sample.kappa = sample.direction_kappa = Infinity();  // only by a hint
+      if (g2 <= 0)
+        sample.kappa = sample.weight_kappa = sample.direction_kappa = Infinity();  // only by a hint
       // Without an interface every facet refracts straight on: the density is a delta.
       if (eta == 1) sample.pdf = Infinity();
       if (transport == Transport::kImportance) sample.weight /= eta * eta;

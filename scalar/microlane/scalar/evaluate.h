@@ -86,6 +86,14 @@ void RunNormals(const Real* in, Real* out, Transport) {
     out[0] = DVisible(normals, Load(in), Load(in + 3));
   } else if constexpr (row.what == NormalQuantity::kSampleNormal) {
     Store(normals.SampleNormal(in[0], in[1]), out);
+  } else if constexpr (row.what == NormalQuantity::kSampleReflection ||
+                       row.what == NormalQuantity::kSampleReflectionBounded) {
+    constexpr bool bounded = row.what == NormalQuantity::kSampleReflectionBounded;
+    const SampledReflection sample = SampleVisibleReflection(normals, Load(in), in[3], in[4], bounded);
+    Store(Narrow<Real>(sample.wo), out);
+    out[3] = static_cast<Real>(sample.weight);
+    out[4] = Saturate<Real>(sample.pdf);
+    out[5] = static_cast<Real>(sample.lobe);
   } else {
     constexpr bool bounded = row.what == NormalQuantity::kSampleVisibleBounded;
     Store(normals.SampleVisibleNormal(Load(in), in[3], in[4], bounded), out);
@@ -253,27 +261,26 @@ constexpr auto Entries() {
 }
 
 template <class Real, std::size_t... kPlace>
-constexpr void AddNormals(std::array<Function<Real>, kNumKernels>& table, std::index_sequence<kPlace...>) {
+constexpr void AddNormals(KernelTable<Function<Real>>& table, std::index_sequence<kPlace...>) {
   const auto add = [&](auto place) {
     constexpr std::size_t kThis = decltype(place)::value;
     if constexpr (kNormalRows[kNormalKernelPlaces[kThis].row].what != NormalQuantity::kOwn) {
-      table[kNumComponentKernels + kThis] = RunNormals<Real, kThis>;
+      table[kNumComponentKernels + kThis] = {RunNormals<Real, kThis>, true};
     }
   };
   (add(std::integral_constant<std::size_t, kPlace>()), ...);
 }
 
 template <Normals kNormals, class Real, std::size_t... kQuantity>
-constexpr void AddDielectrics(std::array<Function<Real>, kNumKernels>& table,
-                              std::index_sequence<kQuantity...>) {
-  ((table[DielectricKernel(kNormals, kQuantity)] = Dielectric<Real, kNormals, kQuantity>::Run), ...);
+constexpr void AddDielectrics(KernelTable<Function<Real>>& table, std::index_sequence<kQuantity...>) {
+  ((table[DielectricKernel(kNormals, kQuantity)] = {Dielectric<Real, kNormals, kQuantity>::Run, true}), ...);
 }
 
 // Functions in the order of kKernels; null where the list has an entry that this file has not.
 template <class Real>
-constexpr std::array<Function<Real>, kNumKernels> Resolve() {
-  std::array<Function<Real>, kNumKernels> table{};
-  for (const Entry<Real>& entry : Entries<Real>()) table[KernelIndex(entry.id)] = entry.function;
+constexpr KernelTable<Function<Real>> Resolve() {
+  KernelTable<Function<Real>> table{};
+  for (const Entry<Real>& entry : Entries<Real>()) table[KernelIndex(entry.id)] = {entry.function, true};
   AddNormals(table, std::make_index_sequence<kNumNormalKernels>());
   constexpr auto quantities = std::make_index_sequence<kNumDielectricQuantities>();
   AddDielectrics<Normals::kGgx>(table, quantities);
@@ -283,15 +290,9 @@ constexpr std::array<Function<Real>, kNumKernels> Resolve() {
 }
 
 template <class Real>
-inline constexpr std::array<Function<Real>, kNumKernels> kTable = Resolve<Real>();
+inline constexpr KernelTable<Function<Real>> kTable = Resolve<Real>();
 
-constexpr bool Complete() {
-  for (const Function<float> function : kTable<float>) {
-    if (function == nullptr) return false;
-  }
-  return true;
-}
-static_assert(Complete(), "every entry of the kernel list has its scalar function");
+static_assert(HasEveryKernel(kTable<float>), "every entry of the kernel list has its scalar function");
 
 }  // namespace evaluate_internal
 
@@ -299,7 +300,7 @@ static_assert(Complete(), "every entry of the kernel list has its scalar functio
 template <class Real>
 void Evaluate(std::size_t kernel, const Real* inputs, Real* outputs,
               Transport transport = Transport::kRadiance) {
-  evaluate_internal::kTable<Real>[kernel](inputs, outputs, transport);
+  evaluate_internal::kTable<Real>[kernel].function(inputs, outputs, transport);
 }
 
 }  // namespace microlane::scalar

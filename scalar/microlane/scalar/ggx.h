@@ -59,21 +59,24 @@ struct Ggx {
   // Tokuyoshi 2023.
   SampledNormal<double> SampleVisibleNormal(const Vec3<Real>& v, double u1, double u2,
                                             bool bounded = false) const {
-    if (AnyNan(v, u1, u2, alpha_x, alpha_y))
-      return {{kNan<double>, kNan<double>, kNan<double>}, kNan<double>};
+    return SampleCap(v, u1, u2, bounded).normal;
+  }
+
+  struct CapNormal {
+    SampledNormal<double> normal;
+    double v_m;  // |v.m| = |q| h.h / (2 |m|) of the stretched view q and m before it was normalised
+  };
+  CapNormal SampleCap(const Vec3<Real>& v, double u1, double u2, bool bounded) const {
+    if (AnyNan(v, u1, u2, alpha_x, alpha_y)) {
+      return {{{kNan<double>, kNan<double>, kNan<double>}, kNan<double>}, kNan<double>};
+    }
     const double side = Side(v), ax = alpha_x, ay = alpha_y;
     const Vec3<double> stretched{side * ax * v.x, side * ay * v.y, side * v.z};
     const double tangent = Hypot<Real>(stretched.x, stretched.y);
     const double length = Hypot<Real>(tangent, stretched.z);
-    if (!(length > 0)) return {{0, 0, 0}, 0};
+    if (!(length > 0)) return {{{0, 0, 0}, 0}, 0};
     const Vec3<double> s = stretched / length;
-    double k = 1, one_minus_k = 0;
-    if (bounded) {
-      const double a2 = Square(std::min({ax, ay, 1.0}));
-      const double t2 = Square(1 + Hypot<Real>(v.x, v.y)), z2 = Square(double{v.z});
-      k = (1 - std::sqrt(a2)) * (1 + std::sqrt(a2)) * (t2 / (t2 + a2 * z2));
-      one_minus_k = a2 * ((z2 + t2) / (t2 + a2 * z2));
-    }
+    const auto [k, one_minus_k] = CapBound(v, bounded);
     const double above = 1 + k * s.z;
     const double below = Square(tangent / length) / (1 + s.z) + one_minus_k * s.z;  // 1 - k s.z
     const double sin_c = std::sqrt(u1 * above * (2 * (1 - u1) + u1 * below));
@@ -81,11 +84,30 @@ struct Ggx {
     const Vec3<double> h{sin_c * phi.cos + s.x, sin_c * phi.sin + s.y, (1 - u1) * above + one_minus_k * s.z};
     const Vec3<double> m{ax * h.x, ay * h.y, h.z};
     const double h2 = Dot(h, h), m_length = std::sqrt(Dot(m, m));
-    if (!(m_length > 0)) return {{0, 0, 0}, 0};
-    return {m / m_length, m_length * (Square(m_length) / h2) / (kPi<double> * ax * ay * above)};
+    if (!(m_length > 0)) return {{{0, 0, 0}, 0}, 0};
+    return {{m / m_length, m_length * (Square(m_length) / h2) / (kPi<double> * ax * ay * above)},
+            length * h2 / (2 * m_length)};
+  }
+
+  // The share of the cap that is left to bounded sampling: (1 + k s.z) / (1 + s.z).
+  double CapShare(const Vec3<Real>& v, bool bounded) const {
+    const double tangent = Hypot<Real>(double{alpha_x} * v.x, double{alpha_y} * v.y), z = std::abs(v.z);
+    const double length = Hypot<Real>(tangent, z);
+    return (length + CapBound(v, bounded).k * z) / (length + z);
   }
 
  private:
+  struct Bound {
+    double k, one_minus_k;
+  };
+  Bound CapBound(const Vec3<Real>& v, bool bounded) const {
+    if (!bounded) return {1, 0};
+    const double a2 = Square(std::min({double{alpha_x}, double{alpha_y}, 1.0}));
+    const double t2 = Square(1 + Hypot<Real>(v.x, v.y)), z2 = Square(double{v.z});
+    return {(1 - std::sqrt(a2)) * (1 + std::sqrt(a2)) * (t2 / (t2 + a2 * z2)),
+            a2 * ((z2 + t2) / (t2 + a2 * z2))};
+  }
+
   // D(m / sqrt(length2)), with every slope's denominator multiplied out.
   double DOf(const Vec3<Wide<Real>>& m, Wide<Real> length2) const {
     if (AnyNan(m, alpha_x, alpha_y)) return kNan<Real>;
@@ -96,6 +118,30 @@ struct Ggx {
     return Narrow<double>(area) / kPi<double> * Square(Narrow<double>(area * length2 / stretched));
   }
 };
+
+// A direction into which the ideal mirror reflects wi about a visible normal; all 0 where it is not on wi's
+// side.
+struct SampledReflection {
+  Vec3<double> wo;
+  double weight, pdf, lobe;
+};
+
+// Walter 2007 Eqs. 14 and 39 about m of SampleVisibleNormal. weight = f |cos| / pdf = G2/G1 times the share
+// of the cap, where F, D and the Jacobian are gone: (|wi.n| (1 + Lambda_i)) / (|wi.n| (1 + Lambda_i +
+// Lambda_o)).
+template <class Real>
+SampledReflection SampleVisibleReflection(const Ggx<Real>& ggx, const Vec3<Real>& wi, double u1, double u2,
+                                          bool bounded) {
+  const auto [normal, v_m] = ggx.SampleCap(wi, u1, u2, bounded);
+  if (AnyNan(normal.m)) return {normal.m, kNan<double>, kNan<double>, kNan<double>};
+  const double side = Side(wi);
+  const Vec3<double> v{side * wi.x, side * wi.y, side * wi.z};
+  const Vec3<double> wo = (2 * Dot(v, normal.m)) * normal.m - v;  // of the length of v
+  if (!(wo.z > 0)) return {{0, 0, 0}, 0, 0, 0};
+  const double cos_i = v.z + ggx.ScaledLambda(wi, 1);
+  const double lambda_o = Ggx<double>{ggx.alpha_x, ggx.alpha_y}.ScaledLambda(wo, v.z / wo.z);
+  return {side * wo, ggx.CapShare(wi, bounded) * cos_i / (cos_i + lambda_o), normal.pdf / (4 * v_m), 1};
+}
 
 template <class Real>
 bool IsNan(const Ggx<Real>& d) {
