@@ -957,15 +957,16 @@ TEST(Samplers, EdgesOfTheRandomNumbersGiveUnitVectors) {
       for (const double vz : {1.0, 0.5, 1e-3, 1e-7, 1e-42, 0.0, -0.0, -1e-7, -0.5, -1.0}) {
         if (family != "ggx") continue;
         const double sine = std::sqrt((1 - vz) * (1 + vz));
+        const auto at = [&](const char* quantity, std::size_t i) {
+          return distribution.Text() +
+                 Text(", %s, vz %g, u %a %a", quantity, vz, double{u1[i]}, double{u2[i]});
+        };
         for (const Direction& v : {Direction{0.8 * sine, 0.6 * sine, vz}, Direction{-sine, 0, vz}}) {
           for (const char* quantity : {"sample_visible_normal", "sample_visible_normal_bounded"}) {
             const std::vector<Column<T>> out =
                 RunAll<T>(distribution.Id(quantity), n, mode, v, u1, u2, distribution);
             for (std::size_t i = 0; i < n; ++i) {
-              const auto where = [&] {
-                return distribution.Text() +
-                       Text(", %s, vz %g, u %a %a", quantity, vz, double{u1[i]}, double{u2[i]});
-              };
+              const auto where = [&] { return at(quantity, i); };
               const Direction m{double{out[0][i]}, double{out[1][i]}, double{out[2][i]}};
               normals.Add(Length(m) - 1, tolerance, where);
               normals.Add(m.z > 0 && finite(out[3][i]) && out[3][i] > 0 ? 0 : 1, 0, where);
@@ -975,16 +976,23 @@ TEST(Samplers, EdgesOfTheRandomNumbersGiveUnitVectors) {
             const std::vector<Column<T>> out =
                 RunAll<T>(distribution.Id(quantity), n, mode, v, u1, u2, distribution);
             for (std::size_t i = 0; i < n; ++i) {
-              const auto where = [&] {
-                return distribution.Text() +
-                       Text(", %s, vz %g, u %a %a", quantity, vz, double{u1[i]}, double{u2[i]});
-              };
+              const auto where = [&] { return at(quantity, i); };
               const Direction wo{double{out[0][i]}, double{out[1][i]}, double{out[2][i]}};
               const bool kept = out[5][i] == 1;
               directions.Add(Length(wo) - (kept ? 1 : 0), kept ? 4 * tolerance : 0, where);
               const bool valid = kept ? (vz < 0 ? -wo.z : wo.z) > 0 && out[3][i] >= 0 && out[4][i] > 0
                                       : out[3][i] == 0 && out[4][i] == 0 && out[5][i] == 0;
               directions.Add(valid && finite(out[3][i]) && finite(out[4][i]) ? 0 : 1, 0, where);
+            }
+            // Of a view of no length nothing but the range is asked.
+            for (const double length : {1e-10, 1e-20, 1e-30, 1e-42}) {
+              const std::vector<Column<T>> of_short =
+                  RunAll<T>(distribution.Id(quantity), n, mode, length * v, u1, u2, distribution);
+              for (std::size_t i = 0; i < n; ++i) {
+                const double weight = of_short[3][i], pdf = of_short[4][i];
+                const auto where = [&] { return at(quantity, i) + Text(", |v| = %g", length); };
+                directions.Add(weight >= 0 && weight <= 1 && pdf >= 0 && finite(pdf) ? 0 : 1, 0, where);
+              }
             }
           }
         }

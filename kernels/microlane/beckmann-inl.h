@@ -184,8 +184,8 @@ struct Beckmann {
   static HWY_INLINE void SampleNormal(D d, Vec<D>& mx, Vec<D>& my, Vec<D>& mz, Vec<D>& pdf, Vec<D> u1,
                                       Vec<D> u2, P... p) {
     u1 = BelowOne(d, u1);
-    const Vec<D> one = Const(d, 1), w = hn::Sub(one, u1), w_tail = hn::Sub(hn::Sub(one, w), u1);
-    Vec<D> t, t_tail;
+    Vec<D> w, w_tail, t, t_tail;
+    OneMinus(d, u1, w, w_tail);
     NegLog1m<A>(d, u1, t, t_tail);
     NormalFromSlopes<true, kCare, A>(d, mx, my, mz, pdf, hn::Sqrt(t), t, t_tail, w, w_tail, u2, p...);
   }
@@ -197,7 +197,8 @@ struct Beckmann {
                                              Vec<D> u2, Vec<D> cos_i, P... p) {
     constexpr double kHigh = kIsFloat<D> ? 1.2f : 1.2, kHighRoot = kIsFloat<D> ? 0.2f : 0.2;
     u1 = BelowOne(d, u1);
-    const Vec<D> one = Const(d, 1), w = hn::Sub(one, u1), w_tail = hn::Sub(hn::Sub(one, w), u1);
+    Vec<D> w, w_tail;
+    OneMinus(d, u1, w, w_tail);
     const Vec<D> root = Sqrt<A>(d, hn::Abs(cos_i)),
                  f = hn::NegMulAdd(root, Const(d, kHighRoot), Const(d, kHigh));
     const Vec<D> f_tail = hn::Add(hn::NegMulAdd(root, Const(d, kHighRoot), hn::Sub(Const(d, kHigh), f)),

@@ -40,12 +40,16 @@ HWY_INLINE bool AnyNonFinite(hn::Full512<float>, hn::Vec512<float> x) {
 }
 #endif
 
-// Whether this target's approximations have 14 bits and stay as they are; elsewhere a Newton step is taken.
+// Bits of FastReciprocal and FastReciprocalSqrt: AVX-512's 14 as they are, after one Newton step from x86's
+// 11.5 or Arm's 8, or of a division.
 #if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX3
-constexpr bool kCoarseReciprocals = true;
+constexpr int kFastBits = 14;
+#elif HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_EMU128
+constexpr int kFastBits = 24;
 #else
-constexpr bool kCoarseReciprocals = false;
+constexpr int kFastBits = HWY_ARCH_X86 ? 22 : 16;
 #endif
+constexpr bool kFastIsRefined = kFastBits > 20;
 
 template <class D>
 HWY_INLINE Vec<D> NewtonReciprocal(D d, Vec<D> x, Vec<D> r) {
@@ -57,15 +61,14 @@ HWY_INLINE Vec<D> NewtonReciprocalSqrt(D d, Vec<D> x, Vec<D> r) {
   return hn::Mul(r, hn::NegMulAdd(half_xr, r, hn::Set(d, 1.5f)));
 }
 
-// Approximate reciprocal and reciprocal root with relative error below 2^-13.9 on every target: one Newton
-// step from 11.5 bits (x86); from 8 bits (Arm) it leaves 2^-16.
+// Approximate reciprocal and reciprocal root with relative error below 2^-13.9 on every target.
 template <class D>
 HWY_INLINE Vec<D> FastReciprocal(D d, Vec<D> x) {
 #if HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_EMU128
   return hn::Div(hn::Set(d, 1.0f), x);
 #else
   const Vec<D> r = hn::ApproximateReciprocal(x);
-  return kCoarseReciprocals ? r : NewtonReciprocal(d, x, r);
+  return kFastBits == 14 ? r : NewtonReciprocal(d, x, r);
 #endif
 }
 
@@ -75,15 +78,15 @@ HWY_INLINE Vec<D> FastReciprocalSqrt(D d, Vec<D> x) {
   return hn::Div(hn::Set(d, 1.0f), hn::Sqrt(x));
 #else
   const Vec<D> r = hn::ApproximateReciprocalSqrt(x);
-  return kCoarseReciprocals ? r : NewtonReciprocalSqrt(d, x, r);
+  return kFastBits == 14 ? r : NewtonReciprocalSqrt(d, x, r);
 #endif
 }
 
-// The latter with a Newton step on every target, for what is to be of unit length.
+// The latter to 2^-21 or better on every target, for what is to be of unit length.
 template <class D>
 HWY_INLINE Vec<D> RefinedReciprocalSqrt(D d, Vec<D> x) {
   const Vec<D> r = FastReciprocalSqrt(d, x);
-  return kCoarseReciprocals ? NewtonReciprocalSqrt(d, x, r) : r;
+  return kFastIsRefined ? r : NewtonReciprocalSqrt(d, x, r);
 }
 
 // x, a whole number or NaN, as an integer; NaN gives any. Highway's SCALAR and EMU128 cast it, which is

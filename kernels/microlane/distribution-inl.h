@@ -124,10 +124,9 @@ struct LambdaOp {
 template <class Dist, Accuracy A, class D, class... P>
 HWY_INLINE Vec<D> Lambda(D d, Vec<D> vx, Vec<D> vy, Vec<D> vz, P... p) {
   Vec<D> lambda, unused;
-  if constexpr (sizeof...(P) > 3) {
-    InDouble2<InStandard<LambdaOp<Dist>>>(d, lambda, unused, vx, vy, vz, p...);
-  } else if constexpr (kShears<P...>) {
-    Precisely<LambdaOp<Dist>, A>(d, lambda, unused, vx, vy, vz, p...);
+  if constexpr (kShears<P...>) {
+    constexpr bool kHasMean = sizeof...(P) > 3;
+    Precisely<LambdaOp<Dist>, kHasMean ? Accuracy::kStandard : A>(d, lambda, unused, vx, vy, vz, p...);
   } else {
     LambdaOp<Dist>::template Run<A>(d, lambda, unused, vx, vy, vz, p...);
   }

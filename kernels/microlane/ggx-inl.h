@@ -74,7 +74,8 @@ struct Ggx {
   static HWY_INLINE void SampleNormal(D d, Vec<D>& mx, Vec<D>& my, Vec<D>& mz, Vec<D>& pdf, Vec<D> u1,
                                       Vec<D> u2, P... p) {
     u1 = BelowOne(d, u1);
-    const Vec<D> one = Const(d, 1), w = hn::Sub(one, u1), w_tail = hn::Sub(hn::Sub(one, w), u1);
+    Vec<D> w, w_tail;
+    OneMinus(d, u1, w, w_tail);
     NormalFromSlopes<false, kCare, A>(d, mx, my, mz, pdf, hn::Sqrt(hn::Mul(u1, w)), u1, hn::Zero(d), w,
                                       w_tail, u2, p...);
   }
@@ -101,7 +102,8 @@ struct Ggx {
     const Vec<D> qx = hn::Mul(ax, hn::IfThenElse(below, hn::Neg(vx), vx));
     const Vec<D> qy = hn::Mul(ay, hn::IfThenElse(below, hn::Neg(vy), vy));
     u1 = BelowOne(d, u1);
-    const Vec<D> w = hn::Sub(one, u1);
+    Vec<D> w, w_tail;
+    OneMinus(d, u1, w, w_tail);
     const Vec<D> s2 = hn::MulAdd(qx, qx, hn::Mul(qy, qy));
     r = CloseSqrt<A>(d, hn::MulAdd(z, z, s2));
     rz = hn::Add(r, z);
@@ -109,7 +111,7 @@ struct Ggx {
     const Vec<D> whole = hn::Mul(w, rz);
     Vec<D> whole_tail = zero;
     if constexpr (kTails) {
-      const Vec<D> w_tail = hn::Sub(hn::Sub(one, w), u1), rz_tail = hn::Add(hn::Sub(r, rz), z);
+      const Vec<D> rz_tail = hn::Add(hn::Sub(r, rz), z);
       whole_tail = hn::MulAdd(w_tail, rz, hn::MulAdd(w, rz_tail, hn::MulSub(w, rz, whole)));
     }
     Vec<D> kept = whole, beside = s2;
@@ -202,13 +204,17 @@ struct Ggx {
     Vec<D> wz = hn::MulSub(s, hz, z);
     if constexpr (kTails) wz = hn::MulAdd(s, hz_tail, wz);
     const Vec<D> mu_o = Masking<Care::kPlain, A>(d, wx, wy, wz, p...);
-    const Vec<D> masking = hn::MulAdd(r, wz, hn::Mul(mu_o, z));
+    // Scaled, so that two grazing cosines do not underflow together.
+    const Vec<D> scale = Const(d, 0x1p60), scaled_wz = hn::Mul(wz, scale);
+    const Vec<D> masking = hn::MulAdd(r, scaled_wz, hn::Mul(mu_o, hn::Mul(z, scale)));
     // 1/t^2 less what the division has left.
     const Vec<D> q = Div<A>(d, m2, h2), q2 = hn::Mul(q, q);
     const Vec<D> left = hn::Mul(hn::NegMulAdd(q, h2, m2), hn::Add(r_m2, r_m2));
     const Vec<D> area = hn::Mul(hn::Mul(hn::Mul(ax, ay), Const(d, 2 * kPi)), rz);
     const auto invalid = hn::Le(wz, zero);
-    weight = ZeroIf(invalid, hn::Min(one, Div<A>(d, hn::Mul(rz, wz), masking)));
+    // 0 to 1 whatever an approximate reciprocal makes of a view whose length is next to 0.
+    const Vec<D> ratio = Div<A>(d, hn::Mul(rz, scaled_wz), masking);
+    weight = ZeroIf(invalid, hn::Max(zero, hn::Min(one, ratio)));
     pdf = ZeroIf(invalid, Div<A>(d, hn::MulAdd(q2, left, q2), area));
     ox = ZeroIf(invalid, wx);
     oy = ZeroIf(invalid, wy);

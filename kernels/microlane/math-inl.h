@@ -64,11 +64,11 @@ HWY_INLINE Vec<D> Reciprocal(D d, Vec<D> x) {
   }
 }
 
-// Reciprocal with kFast's error taken to a rounding or two by a Newton step.
+// Reciprocal with kFast's error taken to a rounding or two, where it is not, by a Newton step.
 template <Accuracy A, class D>
 HWY_INLINE Vec<D> RefinedReciprocal(D d, Vec<D> x) {
   const Vec<D> r = Reciprocal<A>(d, x);
-  return A == Accuracy::kFast ? hn::Mul(r, hn::NegMulAdd(x, r, Const(d, 2))) : r;
+  return A == Accuracy::kFast && !kFastIsRefined ? NewtonReciprocal(d, x, r) : r;
 }
 
 // x/y from r = Reciprocal<A>(y), for several x over one y: rounded as a division but for rare cases.
@@ -140,6 +140,14 @@ template <class V>
 HWY_INLINE void FastTwoSum(V a, V b, V& s, V& e) {
   s = hn::Add(a, b);
   e = hn::Sub(b, hn::Sub(s, a));
+}
+
+// 1 - u = w + w_tail exactly, for u in [0, 1].
+template <class D>
+HWY_INLINE void OneMinus(D d, Vec<D> u, Vec<D>& w, Vec<D>& w_tail) {
+  const Vec<D> one = Const(d, 1);
+  w = hn::Sub(one, u);
+  w_tail = hn::Sub(hn::Sub(one, w), u);
 }
 
 // (a (b + b_tail))^2 = p + p_tail to twice the working precision.

@@ -60,41 +60,35 @@ const FamilyFunction* FresnelTable() { return HWY_DISPATCH_TABLE(FamilyOnTarget)
 
 namespace fresnel {
 
+namespace {
+
+// A factor of a cosine and one parameter.
+template <std::size_t kKernel, class T>
+void OfCosine(std::size_t n, const T* cos_i, const Parameter<T>& parameter, T* factor, Accuracy accuracy) {
+  CallBuilder<T>().In(cos_i).In(parameter).Out(factor).template Run<kKernel>(FresnelTable(), accuracy, n);
+}
+
+}  // namespace
+
 template <class T>
 void Dielectric(std::size_t n, const T* cos_i, ParameterOf<T> eta, T* reflectance, Accuracy accuracy) {
-  CallBuilder<T>()
-      .In(cos_i)
-      .In(eta)
-      .Out(reflectance)
-      .template Run<KernelIndex("fresnel.dielectric")>(FresnelTable(), accuracy, n);
+  OfCosine<KernelIndex("fresnel.dielectric")>(n, cos_i, eta, reflectance, accuracy);
 }
 
 template <class T>
 void DielectricTransmittance(std::size_t n, const T* cos_i, ParameterOf<T> eta, T* transmittance,
                              Accuracy accuracy) {
-  CallBuilder<T>()
-      .In(cos_i)
-      .In(eta)
-      .Out(transmittance)
-      .template Run<KernelIndex("fresnel.dielectric_transmittance")>(FresnelTable(), accuracy, n);
+  OfCosine<KernelIndex("fresnel.dielectric_transmittance")>(n, cos_i, eta, transmittance, accuracy);
 }
 
 template <class T>
 void DielectricS(std::size_t n, const T* cos_i, ParameterOf<T> eta, T* reflectance, Accuracy accuracy) {
-  CallBuilder<T>()
-      .In(cos_i)
-      .In(eta)
-      .Out(reflectance)
-      .template Run<KernelIndex("fresnel.dielectric_s")>(FresnelTable(), accuracy, n);
+  OfCosine<KernelIndex("fresnel.dielectric_s")>(n, cos_i, eta, reflectance, accuracy);
 }
 
 template <class T>
 void DielectricP(std::size_t n, const T* cos_i, ParameterOf<T> eta, T* reflectance, Accuracy accuracy) {
-  CallBuilder<T>()
-      .In(cos_i)
-      .In(eta)
-      .Out(reflectance)
-      .template Run<KernelIndex("fresnel.dielectric_p")>(FresnelTable(), accuracy, n);
+  OfCosine<KernelIndex("fresnel.dielectric_p")>(n, cos_i, eta, reflectance, accuracy);
 }
 
 template <class T>
@@ -118,11 +112,7 @@ void Conductor(std::size_t n, const T* cos_i, std::size_t channels, const Parame
 
 template <class T>
 void Schlick(std::size_t n, const T* cos_i, ParameterOf<T> f0, T* reflectance, Accuracy accuracy) {
-  CallBuilder<T>()
-      .In(cos_i)
-      .In(f0)
-      .Out(reflectance)
-      .template Run<KernelIndex("fresnel.schlick")>(FresnelTable(), accuracy, n);
+  OfCosine<KernelIndex("fresnel.schlick")>(n, cos_i, f0, reflectance, accuracy);
 }
 
 #define MICROLANE_INSTANTIATE(T)                                                                        \

@@ -75,22 +75,38 @@ const FamilyFunction* MaskingTable() { return HWY_DISPATCH_TABLE(FamilyOnTarget)
 
 namespace masking {
 
+namespace {
+
+// A form of no parameter.
+template <std::size_t kKernel, class T>
+void OfFacet(std::size_t n, const Directions<T>& v, const Directions<T>& m, T* g1, Accuracy accuracy) {
+  CallBuilder<T>().In(v).In(m).Out(g1).template Run<kKernel>(MaskingTable(), accuracy, n);
+}
+
+// A joint form of the directions' azimuths too.
+template <std::size_t kKernel, class T>
+void OfAzimuths(std::size_t n, const T* lambda_i, const T* lambda_o, const Directions<T>& wi,
+                const Directions<T>& wo, T* g2, Accuracy accuracy) {
+  CallBuilder<T> call;
+  call.In(lambda_i).In(lambda_o).In(wi.x).In(wi.y).In(wo.x).In(wo.y).Out(g2);
+  call.template Run<kKernel>(MaskingTable(), accuracy, n);
+}
+
+}  // namespace
+
 template <class T>
 void VCavity(std::size_t n, DirectionsOf<T> v, DirectionsOf<T> m, T* g1, Accuracy accuracy) {
-  CallBuilder<T>().In(v).In(m).Out(g1).template Run<KernelIndex("masking.v_cavity")>(MaskingTable(), accuracy,
-                                                                                     n);
+  OfFacet<KernelIndex("masking.v_cavity")>(n, v, m, g1, accuracy);
 }
 
 template <class T>
 void Implicit(std::size_t n, DirectionsOf<T> v, DirectionsOf<T> m, T* g1, Accuracy accuracy) {
-  CallBuilder<T>().In(v).In(m).Out(g1).template Run<KernelIndex("masking.implicit")>(MaskingTable(), accuracy,
-                                                                                     n);
+  OfFacet<KernelIndex("masking.implicit")>(n, v, m, g1, accuracy);
 }
 
 template <class T>
 void Kelemen(std::size_t n, DirectionsOf<T> v, DirectionsOf<T> m, T* g1, Accuracy accuracy) {
-  CallBuilder<T>().In(v).In(m).Out(g1).template Run<KernelIndex("masking.kelemen")>(MaskingTable(), accuracy,
-                                                                                    n);
+  OfFacet<KernelIndex("masking.kelemen")>(n, v, m, g1, accuracy);
 }
 
 template <class T>
@@ -115,29 +131,13 @@ void HeightCorrelated(std::size_t n, const T* lambda_i, const T* lambda_o, T* g2
 template <class T>
 void DirectionCorrelated(std::size_t n, const T* lambda_i, const T* lambda_o, DirectionsOf<T> wi,
                          DirectionsOf<T> wo, T* g2, Accuracy accuracy) {
-  CallBuilder<T>()
-      .In(lambda_i)
-      .In(lambda_o)
-      .In(wi.x)
-      .In(wi.y)
-      .In(wo.x)
-      .In(wo.y)
-      .Out(g2)
-      .template Run<KernelIndex("masking.direction_correlated")>(MaskingTable(), accuracy, n);
+  OfAzimuths<KernelIndex("masking.direction_correlated")>(n, lambda_i, lambda_o, wi, wo, g2, accuracy);
 }
 
 template <class T>
 void HeightDirectionCorrelated(std::size_t n, const T* lambda_i, const T* lambda_o, DirectionsOf<T> wi,
                                DirectionsOf<T> wo, T* g2, Accuracy accuracy) {
-  CallBuilder<T>()
-      .In(lambda_i)
-      .In(lambda_o)
-      .In(wi.x)
-      .In(wi.y)
-      .In(wo.x)
-      .In(wo.y)
-      .Out(g2)
-      .template Run<KernelIndex("masking.height_direction_correlated")>(MaskingTable(), accuracy, n);
+  OfAzimuths<KernelIndex("masking.height_direction_correlated")>(n, lambda_i, lambda_o, wi, wo, g2, accuracy);
 }
 
 #define MICROLANE_INSTANTIATE(T)                                                                             \
