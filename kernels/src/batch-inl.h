@@ -101,24 +101,21 @@ HWY_INLINE void StoreTail(D d, const T<D>* lanes, T<D>* to, std::size_t count) {
 
 // Runs K over n lanes. Inputs I... are loaded in every iteration (those that are one value from a spread
 // copy); `uniform` are the inputs behind them, the same in all iterations, so that what K derives from them
-// is hoisted.
-template <class K, Accuracy A, class D, std::size_t... I, class... V>
-HWY_INLINE void Loop(D d, const Call<T<D>>& call, std::size_t n, std::index_sequence<I...>, V... uniform) {
+// is hoisted. Every index into the arrays here is a constant, so that they live in registers.
+template <class K, Accuracy A, class D, std::size_t... I, std::size_t... O, class... V>
+HWY_INLINE void Loop(D d, const Call<T<D>>& call, std::size_t n, std::index_sequence<I...>,
+                     std::index_sequence<O...>, V... uniform) {
   using TD = T<D>;
-  constexpr std::size_t kIn = sizeof...(I), kOut = Shape<K>::kOut, kMaxLanes = hn::MaxLanes(D());
+  constexpr std::size_t kIn = sizeof...(I), kOut = sizeof...(O), kMaxLanes = hn::MaxLanes(D());
   HWY_ALIGN TD copy[kIn][kMaxLanes];
   HWY_ALIGN TD tail_out[kOut][kMaxLanes];
   const std::size_t lanes = hn::Lanes(d);
-  const TD* in[kIn];
-  std::size_t step[kIn];
-  TD* out[kOut];
-  for (std::size_t k = 0; k < kIn; ++k) {
-    const bool spread = k >= Shape<K>::kPerLane && call.uniform[k];
-    if (spread) hn::Store(hn::Set(d, call.in[k][0]), d, copy[k]);
-    in[k] = spread ? copy[k] : call.in[k];
-    step[k] = spread ? 0 : 1;
-  }
-  for (std::size_t k = 0; k < kOut; ++k) out[k] = call.out[k];
+  const bool spread[] = {(I >= Shape<K>::kPerLane && call.uniform[I])...};
+  const std::size_t step[] = {(spread[I] ? std::size_t{0} : std::size_t{1})...};
+  const TD* in[] = {(spread[I] ? copy[I] : call.in[I])...};
+  TD* out[] = {call.out[O]...};
+  const auto spread_one = [&](std::size_t k) HWY_ATTR { hn::Store(hn::Set(d, call.in[k][0]), d, copy[k]); };
+  ((spread[I] ? spread_one(I) : void()), ...);
   const auto radiance = RadianceMask(d, call.transport);
   const Options<D> options{radiance};
   const auto body = [&](std::size_t i, auto... v) HWY_ATTR {
@@ -151,22 +148,23 @@ HWY_INLINE void Loop(D d, const Call<T<D>>& call, std::size_t n, std::index_sequ
     }
     if (tail || rest == 0) break;
     // The tail goes through the same code as one whole vector of copies.
-    for (std::size_t k = 0; k < kIn; ++k) {
-      if (step[k] != 0) hn::Store(LoadTail(d, call.in[k] + whole, rest), d, copy[k]);
-      in[k] = copy[k];
-    }
-    for (std::size_t k = 0; k < kOut; ++k) out[k] = tail_out[k];
+    const auto copy_tail = [&](std::size_t k)
+                               HWY_ATTR { hn::Store(LoadTail(d, call.in[k] + whole, rest), d, copy[k]); };
+    ((spread[I] ? void() : copy_tail(I)), ...);
+    ((in[I] = copy[I]), ...);
+    ((out[O] = tail_out[O]), ...);
     count = lanes;
   }
   if (rest == 0) return;
-  for (std::size_t k = 0; k < kOut; ++k) StoreTail(d, tail_out[k], call.out[k] + whole, rest);
+  (StoreTail(d, tail_out[O], call.out[O] + whole, rest), ...);
 }
 
 template <class K, Accuracy A, class TD, std::size_t... P>
 HWY_INLINE void LoopUniform(const Call<TD>& call, std::size_t n, std::index_sequence<P...>) {
   const hn::ScalableTag<TD> d;
   constexpr std::size_t kPerLane = Shape<K>::kPerLane;
-  Loop<K, A>(d, call, n, std::make_index_sequence<kPerLane>(), hn::Set(d, call.in[kPerLane + P][0])...);
+  Loop<K, A>(d, call, n, std::make_index_sequence<kPerLane>(), std::make_index_sequence<Shape<K>::kOut>(),
+             hn::Set(d, call.in[kPerLane + P][0])...);
 }
 
 template <class K, Accuracy A, class TD>
@@ -180,7 +178,8 @@ void RunLanes(const Call<TD>& call, std::size_t n) {
       return;
     }
   }
-  Loop<K, A>(hn::ScalableTag<TD>(), call, n, std::make_index_sequence<S::kIn>());
+  Loop<K, A>(hn::ScalableTag<TD>(), call, n, std::make_index_sequence<S::kIn>(),
+             std::make_index_sequence<S::kOut>());
 }
 
 // kHigh: double lanes over blocks that stay in L1, each result rounded once.
