@@ -75,6 +75,7 @@ void SetGoals(ReportData& data) {
   speed("the same, fast", "rough_dielectric.eval", Path::kFast, 35);
   speed("GGX: a visible normal, reflection, weight and density, standard, against textbook",
         "ggx.sample_visible_reflection", Path::kStandard, 40);
+  speed("Beckmann: the same", "beckmann.sample_visible_reflection", Path::kStandard, 60);
 
   if (CanCountOperations()) {
     const Operations& operations =

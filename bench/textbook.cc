@@ -157,6 +157,28 @@ struct GgxIsotropic : Ggx {
   }
 };
 
+// Giles 2012, "Approximating the erfinv function".
+inline float ErfInv(float x) {
+  x = std::clamp(x, -0.99999f, 0.99999f);
+  float w = -std::log((1 - x) * (1 + x)), p;
+  if (w < 5) {
+    w -= 2.5f;
+    p = 2.81022636e-08f;
+    for (const float c : {3.43273939e-07f, -3.5233877e-06f, -4.39150654e-06f, 0.00021858087f, -0.00125372503f,
+                          -0.00417768164f, 0.246640727f, 1.50140941f}) {
+      p = c + p * w;
+    }
+  } else {
+    w = std::sqrt(w) - 3;
+    p = -0.000200214257f;
+    for (const float c : {0.000100950558f, 0.00134934322f, -0.00367342844f, 0.00573950773f, -0.0076224613f,
+                          0.00943887047f, 1.00167406f, 2.83297682f}) {
+      p = c + p * w;
+    }
+  }
+  return p * x;
+}
+
 struct Beckmann {
   static constexpr Normals kNormals = Normals::kBeckmann;
   static constexpr std::size_t kParameters = 2;
@@ -190,6 +212,40 @@ struct Beckmann {
     const float tan2_theta = -alpha2 * std::log(1 - u1);
     const float cos_theta = 1 / std::sqrt(1 + tan2_theta);
     return SphericalDirection(std::sqrt(std::max(0.f, 1 - Sqr(cos_theta))), cos_theta, phi);
+  }
+
+  // Slopes along and across the view: Newton's method on the cumulative function in terms of erf(slope), with
+  // bisection where it leaves its bracket.
+  Vec3 SampleVisibleNormal(const Vec3& w, float u1, float u2) const {
+    const Vec3 wh = Normalize({alpha_x * w.x, alpha_y * w.y, w.z});
+    u1 = std::max(u1, 1e-6f);
+    float slope_x, slope_y = ErfInv(2 * std::max(u2, 1e-6f) - 1);
+    if (wh.z > 0.9999f) {
+      const float r = std::sqrt(-std::log(1 - u1));
+      slope_x = r * std::cos(2 * kPi * u2);
+      slope_y = r * std::sin(2 * kPi * u2);
+    } else {
+      const float sin_theta = std::sqrt(std::max(0.f, 1 - Sqr(wh.z))), tan_theta = sin_theta / wh.z;
+      const float cot_theta = 1 / tan_theta, inverse_sqrt_pi = 1 / std::sqrt(kPi);
+      float low = -1, high = std::erf(cot_theta);
+      float b = high - (1 + high) * std::sqrt(1 - u1);
+      const float normalization = 1 / (1 + high + inverse_sqrt_pi * tan_theta * std::exp(-Sqr(cot_theta)));
+      for (int i = 0; i < 10; ++i) {
+        if (!(b >= low && b <= high)) b = 0.5f * (low + high);
+        const float inverse = ErfInv(b);
+        const float value =
+            normalization * (1 + b + inverse_sqrt_pi * tan_theta * std::exp(-Sqr(inverse))) - u1;
+        const float derivative = normalization * (1 - inverse * tan_theta);
+        if (std::abs(value) < 1e-5f) break;
+        (value > 0 ? high : low) = b;
+        b -= value / derivative;
+      }
+      slope_x = ErfInv(b);
+    }
+    const float length = std::sqrt(Sqr(wh.x) + Sqr(wh.y));
+    const float cos_phi = length == 0 ? 1 : wh.x / length, sin_phi = length == 0 ? 0 : wh.y / length;
+    const float x = cos_phi * slope_x - sin_phi * slope_y, y = sin_phi * slope_x + cos_phi * slope_y;
+    return Normalize({-alpha_x * x, -alpha_y * y, 1});
   }
 };
 
@@ -455,7 +511,12 @@ VisibleReflection SampleVisibleReflection(const Distribution& distribution, cons
   }
   const Vec3 wo = Reflect(w, wm);
   if (!SameHemisphere(w, wo)) return {{0, 0, 0}, 0, 0, 0};
-  const float density = kBounded ? BoundedDensity(distribution, w, wm) : VisibleDensity(distribution, w, wm);
+  float density;
+  if constexpr (kBounded) {
+    density = BoundedDensity(distribution, w, wm);
+  } else {
+    density = VisibleDensity(distribution, w, wm);
+  }
   const float pdf = density / (4 * AbsDot(w, wm));
   const float g = 1 / (1 + distribution.Lambda(w) + distribution.Lambda(wo));
   const float f = distribution.D(wm) * g / (4 * AbsCosTheta(w) * AbsCosTheta(wo));
@@ -570,6 +631,8 @@ void SinCos2Pi(const float* in, float* out, Transport) {
 void ErfcxDefect(const float* in, float* out, Transport) {
   out[0] = 1 - std::sqrt(kPi) * in[0] * std::exp(Sqr(in[0])) * std::erfc(in[0]);
 }
+void Erfcx(const float* in, float* out, Transport) { out[0] = std::exp(Sqr(in[0])) * std::erfc(in[0]); }
+void InverseErf(const float* in, float* out, Transport) { out[0] = ErfInv(2 * in[0] - 1); }
 void PhongExponent(const float* in, float* out, Transport) { out[0] = std::max(0.f, 2 / Sqr(in[0]) - 2); }
 void Reflectance(const float* in, float* out, Transport) { out[0] = FrDielectric(in[0], in[1]); }
 void Transmittance(const float* in, float* out, Transport) { out[0] = 1 - FrDielectric(in[0], in[1]); }
@@ -698,6 +761,8 @@ constexpr std::array kEntries = {
     Make<KernelIndex("math.neg_log1m"), NegLog1m>(),
     Make<KernelIndex("math.sincos_2pi"), SinCos2Pi>(),
     Make<KernelIndex("math.erfcx_defect"), ErfcxDefect>(),
+    Make<KernelIndex("math.erfcx"), Erfcx>(),
+    Make<KernelIndex("math.erfinv"), InverseErf>(),
 
     Make<KernelIndex("math.azimuth_difference"), AzimuthsApart>(),
 

@@ -238,16 +238,58 @@ TEST(OracleSampling, VisibleNormalsHaveTheirDensity) {
   }
 }
 
+// The share of visible normals above the slope, by quadrature of Heitz 2014, Eq. 16 at unit roughness, is u1.
+TEST(OracleSampling, VisibleSlopesInvertTheirCumulativeFunction) {
+  for (const double z : {0.0, 1e-3, 0.3, 1.0}) {
+    for (const double r : {1.0, 0.05}) {
+      for (const double u : {1e-9, 0.1, 0.6, 0.95, 1 - 0x1p-24}) {
+        Real t, reach, spread;
+        VisibleSlope(z, r, u, t, reach, spread);
+        EXPECT_GT(reach, 0);
+        const auto density = [&](const Real& s) { return Real((z + r * s) * exp(-s * s)); };
+        const auto integral = [&](const Real& from, const Real& to) {
+          constexpr int kSteps = 4000;
+          const Real h = (to - from) / kSteps;
+          Real sum = density(from) + density(to);
+          for (int i = 1; i < kSteps; ++i) sum += (i % 2 == 1 ? 4 : 2) * density(from + i * h);
+          return Real(sum * h / 3);
+        };
+        const Real end = -z / r < -12 ? Real(-12) : Real(-z / r);
+        const Real below = integral(end, t), above = integral(t, t + 6);
+        ExpectRelative(above / (below + above), u, 1e-8, "share");
+      }
+    }
+  }
+}
+
+TEST(OracleSampling, VisibleNormalsOfBeckmannHaveTheirDensity) {
+  const Beckmann beckmann{{0.2, 0.7}};
+  for (const Vec& v : kUnits) {
+    for (const double u1 : {1e-6, 0.2, 0.7, 0.999}) {
+      for (const double u2 : {0.03, 0.3, 0.55, 0.9}) {
+        const auto map = [&](const Real& a, const Real& b) { return VisibleNormal(beckmann, v, a, b).m; };
+        const Vec m = map(u1, u2);
+        ExpectRelative(Dot(m, m), 1, 1e-120, "|m|");
+        EXPECT_GT(m.z, 0);
+        EXPECT_GT(Dot(v, m) * v.z, 0);
+        ExpectRelative(beckmann.DVisible(v, m) * SphereJacobian(map, u1, u2), 1, 1e-20, "D_visible");
+      }
+    }
+  }
+}
+
 // Walter 2007, Eq. 20 with F = 1 over the density; failed samples are 0 in every output.
 TEST(OracleSampling, VisibleReflectionsHaveTheirDensityAndWeight) {
   const Ggx ggx{{0.2, 0.7}};
+  const Beckmann beckmann{ggx.alpha};
   std::size_t kept = 0, lost = 0;
-  for (const char* id : {"ggx.sample_visible_reflection", "ggx.sample_visible_reflection_bounded"}) {
+  for (const std::string id : {"ggx.sample_visible_reflection", "ggx.sample_visible_reflection_bounded",
+                               "beckmann.sample_visible_reflection"}) {
     for (const Vec& wi : kUnits) {
       for (const double u1 : {1e-6, 0.2, 0.7, 0.999}) {
         for (const double u2 : {0.03, 0.3, 0.55, 0.9}) {
           const auto sample = [&](const Real& a, const Real& b) {
-            return EvaluateId(id, {wi.x, wi.y, wi.z, a, b, ggx.alpha.alpha_x, ggx.alpha.alpha_y});
+            return EvaluateId(id.c_str(), {wi.x, wi.y, wi.z, a, b, ggx.alpha.alpha_x, ggx.alpha.alpha_y});
           };
           const Result r = sample(u1, u2);
           const Vec wo{r.exact[0], r.exact[1], r.exact[2]};
@@ -264,7 +306,10 @@ TEST(OracleSampling, VisibleReflectionsHaveTheirDensityAndWeight) {
           };
           ExpectRelative(r.exact[4] * SphereJacobian(map, u1, u2), 1, 1e-25, id);
           const Vec m = Normalized(ReflectionHalfVector(wi, wo));
-          const Real f_cos = ggx.D(m) / (4 * abs(wi.z) * (1 + ggx.Lambda(wi) + ggx.Lambda(wo)));
+          const auto value = [&](const auto& normals) {
+            return Real(normals.D(m) / (4 * abs(wi.z) * (1 + normals.Lambda(wi) + normals.Lambda(wo))));
+          };
+          const Real f_cos = id.front() == 'g' ? value(ggx) : value(beckmann);
           ExpectRelative(r.exact[3] * r.exact[4], f_cos, 1e-100, id);
           EXPECT_LE(r.exact[3], 1);
         }

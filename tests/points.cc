@@ -1022,6 +1022,30 @@ class ExtremeMaker {
     }
   }
 
+  // The cumulative function of Beckmann's visible slopes from a = 0 to infinity, from its one end to the
+  // other.
+  void InvertBeckmann(Scene scene) {
+    for (const double alpha : {0.01, 1.0}) {
+      SetAlpha(scene, alpha, alpha);
+      for (const double a :
+           {0.0, 1e-42, 1e-6, 1e-2, 0.059, 0.061, 0.3, 0.99, 1.01, 1.6, 2.5, 4.0, 7.0, 30.0, 1e4, 1e12}) {
+        const double tangent = 1 / (alpha * a), cosine = a == 0 ? 0 : 1 / std::sqrt(1 + tangent * tangent);
+        const double sine = a == 0 ? 1 : 1 / std::sqrt(1 + 1 / (tangent * tangent));
+        for (const double side : {1.0, -1.0}) {
+          const Vector view = Single({0.6 * sine, -0.8 * sine, side * cosine});
+          Put(scene, kVx, view);
+          Put(scene, kWix, view);
+          for (const double u1 : {0.0, 0x1p-126, 0x1p-60, 0x1p-24, 1e-3, 0.3, 0.5, 0.7, 0.95, 0.999, 0.99999,
+                                  1 - 0x1p-22, kLargestU}) {
+            scene[kU1] = u1;
+            scene[kU2] = side > 0 ? 0.3 : 0x1.fffff8p-1;
+            Add("beckmann-invert", "from one end of the visible slopes to the other", scene);
+          }
+        }
+      }
+    }
+  }
+
   void RandomNumbers() {
     if (!shape_.has[kU1]) return;
     Scene scene = Base();
@@ -1048,6 +1072,7 @@ class ExtremeMaker {
         }
       }
     }
+    if (shape_.visible && shape_.distribution == Distribution::kBeckmann) InvertBeckmann(scene);
     if (!shape_.samples) return;
     // Tails of the density: a tiny density times a large Jacobian.
     for (const double alpha : {1e-5, 1e-3, 0.5}) {

@@ -200,6 +200,8 @@ Cases CasesOnTarget() {
       NormalCase<Beckmann, beckmann, NormalQuantity::kLambda>,
       NormalCase<Beckmann, beckmann, NormalQuantity::kG1>,
       NormalCase<Beckmann, beckmann, NormalQuantity::kSampleNormal>,
+      NormalCase<Beckmann, beckmann, NormalQuantity::kSampleVisible>,
+      NormalCase<Beckmann, beckmann, NormalQuantity::kSampleReflection>,
       NormalCase<Phong, phong, NormalQuantity::kD, RoughnessKind::kExponent>,
       NormalCase<Phong, phong, NormalQuantity::kG1, RoughnessKind::kExponent>,
       NormalCase<Phong, phong, NormalQuantity::kSampleNormal, RoughnessKind::kExponent>,

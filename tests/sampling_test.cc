@@ -68,13 +68,15 @@ struct VisibleCase {
 // From the normal to grazing, and from below.
 std::vector<VisibleCase> VisibleCases() {
   constexpr float kAlphas[][2] = {{0.01f, 0.01f}, {0.05f, 0.05f}, {0.3f, 0.3f}, {1, 1},
-                                  {2, 2},         {0.01f, 1},     {2, 0.1f}};
-  constexpr double kViews[][2] = {{0, 1}, {30, 1}, {60, 1}, {85, 1}, {89.9, 1}, {0, -1}, {70, -1}};
+                                  {2, 2},         {0.01f, 1},     {2, 0.02f}};
+  constexpr double kViews[][2] = {{0, 1},    {30, 1}, {60, 1},  {85, 1},
+                                  {89.9, 1}, {0, -1}, {70, -1}, {89.9, -1}};
   std::vector<VisibleCase> cases;
   for (const auto& alpha : kAlphas) {
     for (const auto& view : kViews) {
       const Accuracy accuracy = cases.size() % 4 == 3 ? Accuracy::kFast : Accuracy::kStandard;
       cases.push_back({Ggx(alpha[0], alpha[1]), view[0], view[1], accuracy, false});
+      cases.push_back({Beckmann(alpha[0], alpha[1]), view[0], view[1], accuracy, false});
       if (view[0] == 60 || view[1] < 0)
         cases.push_back({Ggx(alpha[0], alpha[1]), view[0], view[1], accuracy, true});
     }
@@ -428,6 +430,31 @@ std::vector<Column<T>> SampleReflections(const VisibleCase& c, std::size_t n, st
   return RunAll<T>(id, n, {c.accuracy}, c.v(), u1, u2, c.distribution);
 }
 
+// Normals of a surface of unit roughness, and the density there of one over the stretched ones: of Beckmann's
+// narrow lobes, cells of the sphere do not resolve the exponential.
+template <class T>
+DirectionColumns<T> ToUnitRoughness(const Distribution& distribution, const DirectionColumns<T>& m) {
+  DirectionColumns<T> unit;
+  for (std::size_t i = 0; i < m.size(); ++i) {
+    unit.PushBack(Normalized({m.x[i] / distribution.scale_x, m.y[i] / distribution.scale_y, double{m.z[i]}}));
+  }
+  return unit;
+}
+template <class Density>
+Column<double> DensityAtUnitRoughness(const Distribution& distribution, const DirectionColumns<double>& unit,
+                                      const Density& density) {
+  DirectionColumns<double> m;
+  Column<double> jacobian;
+  for (std::size_t i = 0; i < unit.size(); ++i) {
+    const Direction h{distribution.scale_x * unit.x[i], distribution.scale_y * unit.y[i], unit.z[i]};
+    m.PushBack(Normalized(h));
+    jacobian.push_back(distribution.scale_x * distribution.scale_y / std::pow(Length(h), 3));
+  }
+  Column<double> result = density(m);
+  for (std::size_t i = 0; i < unit.size(); ++i) result[i] *= jacobian[i];
+  return result;
+}
+
 // Heitz 2014, Eq. 16, from views on either side. Bounded caps are tested by the directions they reflect v
 // into, since they leave out normals that reflect it below the surface: above, their density is that of whole
 // caps over the share of the cap that is left.
@@ -438,9 +465,11 @@ TEST(VisibleNormalSampler, DensityIsThatOfVisibleNormals) {
   for (const VisibleCase& c : VisibleCases()) {
     std::mt19937_64 random(seed++);
     const Direction v = c.v();
+    const bool unit = c.distribution.family == "beckmann";
     const auto sample = [&](std::size_t n) {
       const std::vector<Column<float>> out = SampleVisible(c, n, random);
       DirectionColumns<float> sampled{out[0], out[1], out[2]};
+      if (unit) return ToUnitRoughness(c.distribution, sampled);
       if (!c.bounded) return sampled;
       DirectionColumns<float> wo;
       for (std::size_t i = 0; i < n; ++i) {
@@ -452,7 +481,10 @@ TEST(VisibleNormalSampler, DensityIsThatOfVisibleNormals) {
     const DirectionColumns<float> pilot = sample(20000), samples = sample(kSamples);
     const DensityTest test = TestDensity(pilot, samples, [&](const DirectionColumns<double>& nodes) {
       if (c.bounded) return ReflectedDensity(c, nodes);
-      return RunOne<double>(c.distribution.Id("D_visible"), nodes.size(), {}, v, nodes, c.distribution);
+      const auto visible = [&](const DirectionColumns<double>& m) {
+        return RunOne<double>(c.distribution.Id("D_visible"), m.size(), {}, v, m, c.distribution);
+      };
+      return unit ? DensityAtUnitRoughness(c.distribution, nodes, visible) : visible(nodes);
     });
     tally.Add(test, kSamples, c.Text());
   }
@@ -488,7 +520,14 @@ TEST(VisibleReflectionSampler, DensityIsThatOfReflectedVisibleNormals) {
   constexpr std::size_t kSamples = 100000;
   ChiSquareTally tally("reflections about visible normals against D_visible");
   std::uint64_t seed = 2000;
-  for (const VisibleCase& c : VisibleCases()) {
+  for (VisibleCase c : VisibleCases()) {
+    // Cells of the sphere of wo do not resolve Beckmann's exponential in narrower lobes; that the density
+    // reported is D_visible's in those is the next test's.
+    const double ax = c.distribution.scale_x, ay = c.distribution.scale_y;
+    if (c.distribution.family == "beckmann" && std::max(ax, ay) > 20 * std::min(ax, ay)) {
+      c.distribution =
+          Beckmann(static_cast<float>(std::max(ax, ay / 20)), static_cast<float>(std::max(ay, ax / 20)));
+    }
     std::mt19937_64 random(seed++);
     const auto sample = [&](std::size_t n) {
       const std::vector<Column<float>> out = SampleReflections<float>(c, n, random);
@@ -514,8 +553,8 @@ TEST(VisibleReflectionSampler, WeightsAreValueOverDensity) {
     std::mt19937_64 random(seed++);
     const std::vector<Column<double>> out = SampleReflections<double>(c, kSamples, random);
     const DirectionColumns<double> wo{out[0], out[1], out[2]};
-    const Column<double> f_cos =
-        RunOne<double>("rough_dielectric.eval_reflection", kSamples, {}, c.v(), wo, c.distribution, kEta);
+    const Column<double> f_cos = RunOne<double>(c.distribution.Dielectric("eval_reflection"), kSamples, {},
+                                                c.v(), wo, c.distribution, kEta);
     const Column<double> density = ReflectedDensity(c, wo);
     Column<double> cos_i;
     for (std::size_t i = 0; i < kSamples; ++i) cos_i.push_back(Dot(c.v(), Normalized(c.v() + wo[i])));
@@ -955,24 +994,30 @@ TEST(Samplers, EdgesOfTheRandomNumbersGiveUnitVectors) {
         }
       }
       for (const double vz : {1.0, 0.5, 1e-3, 1e-7, 1e-42, 0.0, -0.0, -1e-7, -0.5, -1.0}) {
-        if (family != "ggx") continue;
+        if (family == "phong") continue;
         const double sine = std::sqrt((1 - vz) * (1 + vz));
         const auto at = [&](const char* quantity, std::size_t i) {
           return distribution.Text() +
                  Text(", %s, vz %g, u %a %a", quantity, vz, double{u1[i]}, double{u2[i]});
         };
+        // Beckmann's density leaves the range of float where a random number next to 0 meets another.
+        const auto far = [&](std::size_t i) {
+          return family == "beckmann" && std::min(u1[i], u2[i]) < static_cast<T>(0x1p-24);
+        };
         for (const Direction& v : {Direction{0.8 * sine, 0.6 * sine, vz}, Direction{-sine, 0, vz}}) {
           for (const char* quantity : {"sample_visible_normal", "sample_visible_normal_bounded"}) {
+            if (family != "ggx" && std::string_view(quantity) != "sample_visible_normal") continue;
             const std::vector<Column<T>> out =
                 RunAll<T>(distribution.Id(quantity), n, mode, v, u1, u2, distribution);
             for (std::size_t i = 0; i < n; ++i) {
               const auto where = [&] { return at(quantity, i); };
               const Direction m{double{out[0][i]}, double{out[1][i]}, double{out[2][i]}};
               normals.Add(Length(m) - 1, tolerance, where);
-              normals.Add(m.z > 0 && finite(out[3][i]) && out[3][i] > 0 ? 0 : 1, 0, where);
+              normals.Add(m.z > 0 && finite(out[3][i]) && (out[3][i] > 0 || far(i)) ? 0 : 1, 0, where);
             }
           }
           for (const char* quantity : {"sample_visible_reflection", "sample_visible_reflection_bounded"}) {
+            if (family != "ggx" && std::string_view(quantity) != "sample_visible_reflection") continue;
             const std::vector<Column<T>> out =
                 RunAll<T>(distribution.Id(quantity), n, mode, v, u1, u2, distribution);
             for (std::size_t i = 0; i < n; ++i) {
@@ -980,8 +1025,9 @@ TEST(Samplers, EdgesOfTheRandomNumbersGiveUnitVectors) {
               const Direction wo{double{out[0][i]}, double{out[1][i]}, double{out[2][i]}};
               const bool kept = out[5][i] == 1;
               directions.Add(Length(wo) - (kept ? 1 : 0), kept ? 4 * tolerance : 0, where);
-              const bool valid = kept ? (vz < 0 ? -wo.z : wo.z) > 0 && out[3][i] >= 0 && out[4][i] > 0
-                                      : out[3][i] == 0 && out[4][i] == 0 && out[5][i] == 0;
+              const bool valid =
+                  kept ? (vz < 0 ? -wo.z : wo.z) > 0 && out[3][i] >= 0 && (out[4][i] > 0 || far(i))
+                       : out[3][i] == 0 && out[4][i] == 0 && out[5][i] == 0;
               directions.Add(valid && finite(out[3][i]) && finite(out[4][i]) ? 0 : 1, 0, where);
             }
             // Of a view of no length nothing but the range is asked.

@@ -428,11 +428,35 @@ HWY_INLINE void SampleVisibleNormal(D d, Vec<D>& mx, Vec<D>& my, Vec<D>& mz, Vec
   }
 }
 
-// u below 1, for the total functions of the samplers; NaN passes.
-template <class D>
-HWY_INLINE Vec<D> BelowOne(D d, Vec<D> u) {
-  const Vec<D> largest = Const(d, kIsFloat<D> ? 0x1.fffffep-1 : 0x1.fffffffffffffp-1);
-  return hn::IfThenElse(hn::Gt(u, largest), largest, u);
+// Reflection of v about a normal M that is visible from it, s = 2 |v.M| / |M|^2 (Walter 2007 Eq. 39), with
+// its density and, of the ideal mirror and F = 1, its weight (1 + Lambda_v)/(1 + Lambda_v + Lambda_o), from
+// mu = |vz| (1 + 2 Lambda_v) and kept = |vz| + mu, or what is left of that to bounded caps. M and o of the
+// view -v, seen from below the surface, are turned back with it. All 0 where o is on the other side. M is (x,
+// y, z_m + z_tail); the tail counts but in kFast.
+template <class Dist, Accuracy A, class D, class... P>
+HWY_INLINE void ReflectAboutVisible(D d, Vec<D>& ox, Vec<D>& oy, Vec<D>& oz, Vec<D>& weight, Vec<D>& pdf,
+                                    Vec<D>& lobe, Vec<D> s, Vec<D> x, Vec<D> y, Vec<D> z_m, Vec<D> z_tail,
+                                    Vec<D> density, Vec<D> mu, Vec<D> kept, Vec<D> vx, Vec<D> vy, Vec<D> vz,
+                                    P... p) {
+  const Vec<D> zero = hn::Zero(d), one = Const(d, 1), z = hn::Abs(vz);
+  const auto below = hn::Lt(vz, zero);
+  const Vec<D> turned = hn::IfThenElse(below, hn::Neg(s), s);
+  const Vec<D> wx = hn::MulSub(turned, x, vx), wy = hn::MulSub(turned, y, vy);
+  Vec<D> wz = hn::MulSub(s, z_m, z);
+  if constexpr (A != Accuracy::kFast) wz = hn::MulAdd(s, z_tail, wz);
+  const Vec<D> mu_o = Dist::template Masking<Care::kPlain, A>(d, wx, wy, wz, p...);
+  // Scaled, so that two grazing cosines do not underflow together.
+  const Vec<D> scale = Const(d, 0x1p60), scaled_wz = hn::Mul(wz, scale);
+  const Vec<D> masking = hn::MulAdd(mu, scaled_wz, hn::Mul(mu_o, hn::Mul(z, scale)));
+  const auto invalid = hn::Le(wz, zero);
+  // 0 to 1 whatever an approximate reciprocal makes of a view whose length is next to 0.
+  const Vec<D> ratio = Div<A>(d, hn::Mul(kept, scaled_wz), masking);
+  weight = ZeroIf(invalid, hn::Max(zero, hn::Min(one, ratio)));
+  pdf = ZeroIf(invalid, density);
+  ox = ZeroIf(invalid, wx);
+  oy = ZeroIf(invalid, wy);
+  oz = ZeroIf(invalid, hn::IfThenElse(below, hn::Neg(wz), wz));
+  lobe = ZeroIf(invalid, one);
 }
 
 }  // namespace

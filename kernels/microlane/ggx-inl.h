@@ -185,7 +185,7 @@ struct Ggx {
                                                  Vec<D>& pdf, Vec<D>& lobe, Vec<D> vx, Vec<D> vy, Vec<D> vz,
                                                  Vec<D> u1, Vec<D> u2, P... p) {
     constexpr bool kTails = A != Accuracy::kFast;
-    const Vec<D> zero = hn::Zero(d), one = Const(d, 1), ax = AlphaX(p...), ay = AlphaY(p...);
+    const Vec<D> zero = hn::Zero(d), ax = AlphaX(p...), ay = AlphaY(p...);
     Vec<D> hx, hy, hz, hz_tail, r, rz;
     CapHalfVector<kBounded, kTails, A>(d, hx, hy, hz, hz_tail, r, rz, vx, vy, vz, u1, u2, p...);
     const auto below = hn::Lt(vz, zero);
@@ -195,31 +195,16 @@ struct Ggx {
     const Vec<D> m2 = hn::MulAdd(y, y, hn::MulAdd(x, x, z2)), h2 = hn::MulAdd(hy, hy, hn::MulAdd(hx, hx, z2));
     // 1/|M|^2 to a rounding in the fast accuracy too: o is the difference of s M and v.
     const Vec<D> r_m2 = RefinedReciprocal<A>(d, m2);
-    // Below the surface M and o of the view -v are turned back with it.
     Vec<D> v_m =
         Dot(hn::IfThenElse(below, hn::Neg(vx), vx), hn::IfThenElse(below, hn::Neg(vy), vy), z, x, y, hz);
     if constexpr (kTails) v_m = hn::MulAdd(z, hz_tail, v_m);
-    const Vec<D> s = hn::Mul(hn::Add(v_m, v_m), r_m2), turned = hn::IfThenElse(below, hn::Neg(s), s);
-    const Vec<D> wx = hn::MulSub(turned, x, vx), wy = hn::MulSub(turned, y, vy);
-    Vec<D> wz = hn::MulSub(s, hz, z);
-    if constexpr (kTails) wz = hn::MulAdd(s, hz_tail, wz);
-    const Vec<D> mu_o = Masking<Care::kPlain, A>(d, wx, wy, wz, p...);
-    // Scaled, so that two grazing cosines do not underflow together.
-    const Vec<D> scale = Const(d, 0x1p60), scaled_wz = hn::Mul(wz, scale);
-    const Vec<D> masking = hn::MulAdd(r, scaled_wz, hn::Mul(mu_o, hn::Mul(z, scale)));
     // 1/t^2 less what the division has left.
     const Vec<D> q = Div<A>(d, m2, h2), q2 = hn::Mul(q, q);
     const Vec<D> left = hn::Mul(hn::NegMulAdd(q, h2, m2), hn::Add(r_m2, r_m2));
     const Vec<D> area = hn::Mul(hn::Mul(hn::Mul(ax, ay), Const(d, 2 * kPi)), rz);
-    const auto invalid = hn::Le(wz, zero);
-    // 0 to 1 whatever an approximate reciprocal makes of a view whose length is next to 0.
-    const Vec<D> ratio = Div<A>(d, hn::Mul(rz, scaled_wz), masking);
-    weight = ZeroIf(invalid, hn::Max(zero, hn::Min(one, ratio)));
-    pdf = ZeroIf(invalid, Div<A>(d, hn::MulAdd(q2, left, q2), area));
-    ox = ZeroIf(invalid, wx);
-    oy = ZeroIf(invalid, wy);
-    oz = ZeroIf(invalid, hn::IfThenElse(below, hn::Neg(wz), wz));
-    lobe = ZeroIf(invalid, one);
+    const Vec<D> density = Div<A>(d, hn::MulAdd(q2, left, q2), area);
+    ReflectAboutVisible<Ggx, A>(d, ox, oy, oz, weight, pdf, lobe, hn::Mul(hn::Add(v_m, v_m), r_m2), x, y, hz,
+                                hz_tail, density, r, rz, vx, vy, vz, p...);
   }
   // NOLINTEND(misc-const-correctness)
 };

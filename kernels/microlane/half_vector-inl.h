@@ -14,18 +14,6 @@ namespace microlane {
 namespace HWY_NAMESPACE {
 namespace {
 
-// Power of two that brings the largest component to [1, 2), exactly; 2^127 (2^1023) for the zero vector.
-template <class D>
-HWY_INLINE Vec<D> PowerOfTwoScale(D d, Vec<D> x, Vec<D> y, Vec<D> z) {
-  const hn::RebindToUnsigned<D> du;
-  using U = hn::TFromD<decltype(du)>;
-  constexpr U kExponent = kIsFloat<D> ? static_cast<U>(0x7F800000u) : static_cast<U>(0x7FF0000000000000u);
-  constexpr U kTwiceBias = kIsFloat<D> ? static_cast<U>(0x7F000000u) : static_cast<U>(0x7FE0000000000000u);
-  const Vec<D> largest = hn::Max(hn::Max(hn::Abs(x), hn::Abs(y)), hn::Abs(z));
-  const auto exponent = hn::And(hn::BitCast(du, largest), hn::Set(du, kExponent));
-  return hn::BitCast(d, hn::Sub(hn::Set(du, kTwiceBias), exponent));
-}
-
 // H = e o + i, normalised into h (0 for the zero vector).
 template <Accuracy A, class D>
 HWY_INLINE void NormalizedSum(D d, Vec<D>& hx, Vec<D>& hy, Vec<D>& hz, Vec<D> ix, Vec<D> iy, Vec<D> iz,

@@ -27,17 +27,24 @@ enum class Metric {
   kUlp,  // |got - exact| / ulp(exact)
   // Component of a unit vector: |got - exact| / ulp(kappa). kappa is 1; of sampled refraction 1 + wi.m / |g|;
   // of sampled visible normals, and of wo reflected about them, |(alpha_x (|c.x| + |s.x|), alpha_y (|c.y| +
-  // |s.y|), c.z + s.z)| over the same of c + s, where c is the point of the cap and s the stretched view.
+  // |s.y|), c.z + s.z)| over the same of c + s, where c is the point of the cap and s the stretched view; of
+  // Beckmann's |(alpha_x (|e.x| T + |e.y y|), alpha_y (|e.y| T + |e.x y|), 1)| over the same of (e.x t - e.y
+  // y, e.y t + e.x y), where t and y are the slopes at unit roughness, e the stretched view's azimuth, and T
+  // = |t| + N/(2 (a + t) exp(-t^2)). With A and B the parts of M (its note) above and below t, A/(2 (a + t)
+  // exp(-t^2)) is u1 |dt/du1|, what a rounding of u1 moves t by: N = A. Where it is less, N = B + exp(-t^2):
+  // B/(2 (a + t) exp(-t^2)) is what a rounding of 1 - u1 moves t by, and 1/(2 (a + t)) at least what one of a
+  // does, a |dt/da| = (1 - u1 exp(t^2 - a^2))/(2 (a + t)).
   kDirection,
   // |got - exact| / (ulp(exact) * kappa), where kappa >= 1 is the amplification of an input rounding by
   // the geometry: kappa = (1 + 1/|wi.m|) (1 + (wi.m)^2/|g^2|) (1 + 1/|wo.z| + w), g of Walter 2007 Eq. 22,
   // where w is 0 of a density, and of a weight (alpha_x + alpha_y)/(|wo.z| (1 + 2 Lambda(wo))), 0 for Phong.
   // Of the density of a sampled visible normal: kDirection's kappa, or the same with alphas of 1 if that is
-  // more; so too of the density of wo reflected about it. Of the weight of that, with r = |(alpha_x wo.x,
-  // alpha_y wo.y, wo.z)|: 1 + kDirection's kappa times Lambda_o/(1 + Lambda_i + Lambda_o) (1/|wo.z| + 1/r) +
-  // (alpha_x + alpha_y)/(2 |wo.z| (1 + Lambda_i + Lambda_o)), at least the sum of |d ln(weight)/d wo.x|, ...
-  // d wo.y, ... d wo.z; judged where the error that kDirection allows is small beside wo.z and r/(alpha_x +
-  // alpha_y).
+  // more, of Beckmann's plus T/(a + t); so too of the density of wo reflected about it. Of the weight of
+  // that, with r = |(alpha_x wo.x, alpha_y wo.y, wo.z)|: 1 + kDirection's kappa times Lambda_o/(1 + Lambda_i
+  // + Lambda_o) (1/|wo.z| + 1/r) + (alpha_x + alpha_y)/(2 |wo.z| (1 + Lambda_i + Lambda_o)), of Beckmann,
+  // with s = |(alpha_x wo.x, alpha_y wo.y)|, times exp(-(wo.z/s)^2)/(2 sqrt(pi)) (s/wo.z^2 + (alpha_x +
+  // alpha_y)/|wo.z|)/(1 + Lambda_i + Lambda_o), at least the sum of |d ln(weight)/d wo.x|, ... d wo.y, ... d
+  // wo.z; judged where the error that kDirection allows is small beside wo.z and r/(alpha_x + alpha_y).
   kConditioned,
   kExact,  // an integer label; must agree
 };
@@ -160,6 +167,8 @@ inline constexpr Kernel kComponentKernels[] = {
     {"math.neg_log1m", "u1", "y", "-log(1 - u), used by Walter 2007 Eq. 28", "u in [0, 1).", false, {1, 4, 11, 8, 2}},
     {"math.sincos_2pi", "u1", "sin cos", "sin(2 pi u), cos(2 pi u), used by Walter 2007 Eq. 29", "", false, {1, 4, 256, 8, 2}},
     {"math.erfcx_defect", "a", "y", "1 - sqrt(pi) a exp(a^2) erfc(a): Heitz 2014 Eq. 69 is Lambda = y exp(-a^2) / (2 sqrt(pi) a)", "", false, {1, 4, 1600, 8, 13}},
+    {"math.erfcx", "a", "y", "exp(a^2) erfc(a)", "a >= 0.", false, {1, 1, 96, 1, 8}},
+    {"math.erfinv", "u1", "y", "erfinv(2 u - 1)", "u counts as at least 2^-126.", false, {1, 4, 640, 5, 4}},
     {"math.azimuth_difference", "wix wiy wox woy", "phi", "atan2(|wi x wo|, wi.wo) in the plane, used by Heitz 2014 Eqs. 100, 101", "In [0, pi]; 0 where an azimuth is undefined.", false, {1, 4, 64, 8, 4}},
 
     {"fresnel.dielectric", "cos_i | eta", "F", "Walter 2007 Eq. 22", kFresnelNote, false, {1, 4, 3600, 8, 13}},
@@ -262,11 +271,16 @@ inline constexpr std::string_view kSampleVisibleNote =
     "Spherical caps: s = normalize(alpha_x vx, alpha_y vy, vz), c of azimuth 2 pi u2 and c.z = (1 - u1)(1 + s.z) - s.z, "
     "h = c + s, m = normalize(alpha_x hx, alpha_y hy, hz); pdf = D_v(m). Below the surface -v in place of v, so that mz > "
     "0 on either side; vz = 0 counts as above. 0 where v = 0.";
+inline constexpr std::string_view kSampleVisibleBeckmannNote =
+    "m = normalize(alpha_x (e.x t - e.y y), alpha_y (e.y t + e.x y), 1): e = azimuth of (alpha_x vx, alpha_y vy), (1, 0) at 0; y = "
+    "erfinv(2 u2 - 1); u1 M = sqrt(pi) a erfc(t) + exp(-t^2), M = sqrt(pi) a erfc(-a) + exp(-a^2), t >= -a = -|vz| / |(alpha_x vx, "
+    "alpha_y vy)|; pdf = D_v(m). u1, u2 count as at least 2^-126. Below the surface -v in place of v, so that mz > 0 on either side; "
+    "vz = 0 counts as above. 0 where v = 0.";
 inline constexpr std::string_view kSampleBoundedNote =
     "As ggx.sample_visible_normal with c.z = (1 - u1)(1 + k s.z) - k s.z, k = (1 - a^2) t^2/(t^2 + a^2 vz^2), a = min(alpha_x, "
     "alpha_y, 1), t = 1 + sqrt(vx^2 + vy^2); pdf of m: D_v(m) (1 + s.z)/(1 + k s.z).";
 inline constexpr std::string_view kSampleReflectionNote =
-    "wo = 2 (wi.m) m - wi, m of ggx.sample_visible_normal, turned to wi's side; weight = (1 + Lambda_i)/(1 + Lambda_i + "
+    "wo = 2 (wi.m) m - wi, m of sample_visible_normal, turned to wi's side; weight = (1 + Lambda_i)/(1 + Lambda_i + "
     "Lambda_o), which is f |cos(theta_o)| / pdf of the ideal mirror, F = 1, and at most 1; pdf = D_v(m)/(4 |wi.m|). wiz = 0 "
     "counts as above. Where wo is not on wi's side: lobe 0, and every output 0.";
 inline constexpr std::string_view kSampleReflectionBoundedNote =
@@ -309,6 +323,8 @@ inline constexpr NormalRow kNormalRows[] = {
     {Normals::kBeckmann, "Lambda", NormalQuantity::kLambda, "Heitz 2014 Eqs. 69, 83", kLambdaExponentNote, {{1, 4, 1700, 8, 2200}, {1, 4, 1700, 8, 2200}, {1, 1, 1700, 1, 12000}, {1, 1, 1, 1, 12000}}},
     {Normals::kBeckmann, "G1", NormalQuantity::kG1, "Walter 2007 Eq. 26, stretched", kG1Note, {{1, 4, 2500, 8, 14}, {1, 4, 2500, 8, 14}, {1, 1, 2500, 1, 48}, {1, 1, 2500, 1, 48}}},
     {Normals::kBeckmann, "D_visible", NormalQuantity::kDVisible, "Heitz 2014 Eq. 16", kDVisibleBeckmannNote, {{1, 4, 4000, 8, 3000}, {1, 4, 4000, 8, 3000}, {1, 4, 2800, 8, 8e4}, {1, 4, 2800, 8, 8e4}}},
+    {Normals::kBeckmann, "sample_visible_normal", NormalQuantity::kSampleVisible, "Heitz 2014 Eq. 16 by the inverse of its cumulative function", kSampleVisibleBeckmannNote, {{1, 20, 3300, 20, 20}, {1, 20, 3300, 20, 20}, {1, 1, 1, 1, 40}, {1, 1, 1, 1, 40}}},
+    {Normals::kBeckmann, "sample_visible_reflection", NormalQuantity::kSampleReflection, "Heitz 2014 Eqs. 16, 99; Walter 2007 Eqs. 14, 39", kSampleReflectionNote, {{1, 16, 2800, 20, 18}, {1, 16, 2800, 20, 18}}},
     {Normals::kBeckmann, "G1_rational", NormalQuantity::kOwn, "Walter 2007 Eq. 27, clamped at 1", "The error bound is against Eq. 27; Eq. 27 itself is within 0.313% of Eq. 26.", {{1, 4, 2300, 8, 6}}, "vx vy vz mx my mz | alpha_x alpha_y", "G1"},
     {Normals::kBeckmann, "sample_normal", NormalQuantity::kSampleNormal, "Walter 2007 Eqs. 24, 28, 29, stretched", kSampleBeckmannNote, {{1, 4, 2400, 8, 17}, {1, 4, 2400, 8, 17}, {1, 1, 1, 1, 400}, {1, 1, 1, 1, 400}}},
     {Normals::kBeckmann, "sample_normal_widened", NormalQuantity::kOwn, "Walter 2007 section 5.3", "beckmann.sample_normal with both alphas times 1.2 - 0.2 sqrt(|cos_i|).", {{1, 4, 3000, 8, 17}}, "u1 u2 cos_i | alpha_x alpha_y", "mx my mz pdf"},

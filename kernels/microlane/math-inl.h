@@ -14,6 +14,7 @@ namespace HWY_NAMESPACE {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
+constexpr double kRootPi = 1.77245385090551602730;
 
 // ln 2 = high + low, where high has so few bits that its product with an exponent is exact.
 template <class D>
@@ -184,12 +185,44 @@ HWY_INLINE Vec<D> FlipSign(D d, Vec<D> x, Vec<D> sign) {
   return hn::Xor(x, hn::And(sign, hn::SignBit(d)));
 }
 
-// sum_i c[i] x^i by Horner's rule, rounded as one FMA per step.
-template <class D, size_t N>
+// Power of two that brings the largest component to [1, 2), exactly; 2^127 (2^1023) for the zero vector.
+template <class D>
+HWY_INLINE Vec<D> PowerOfTwoScale(D d, Vec<D> x, Vec<D> y, Vec<D> z) {
+  const hn::RebindToUnsigned<D> du;
+  using U = hn::TFromD<decltype(du)>;
+  constexpr U kExponent = kIsFloat<D> ? static_cast<U>(0x7F800000u) : static_cast<U>(0x7FF0000000000000u);
+  constexpr U kTwiceBias = kIsFloat<D> ? static_cast<U>(0x7F000000u) : static_cast<U>(0x7FE0000000000000u);
+  const Vec<D> largest = hn::Max(hn::Max(hn::Abs(x), hn::Abs(y)), hn::Abs(z));
+  const auto exponent = hn::And(hn::BitCast(du, largest), hn::Set(du, kExponent));
+  return hn::BitCast(d, hn::Sub(hn::Set(du, kTwiceBias), exponent));
+}
+
+// 1/x of a power of two up to 2^126 (2^1022); 0 of the next one.
+template <class D>
+HWY_INLINE Vec<D> InversePowerOfTwo(D d, Vec<D> x) {
+  const hn::RebindToUnsigned<D> du;
+  using U = hn::TFromD<decltype(du)>;
+  constexpr U kTwiceBias = kIsFloat<D> ? static_cast<U>(0x7F000000u) : static_cast<U>(0x7FE0000000000000u);
+  return hn::BitCast(d, hn::Sub(hn::Set(du, kTwiceBias), hn::BitCast(du, x)));
+}
+
+// sum_i c[kFirst + i kStep] x^i by Horner's rule, rounded as one FMA per step. A recursion, for loops of this
+// length stay loops at -O2.
+template <size_t kFirst = 0, size_t kStep = 1, class D, size_t N>
 HWY_INLINE Vec<D> Polynomial(D d, Vec<D> x, const double (&c)[N]) {
-  Vec<D> y = Const(d, c[N - 1]);
-  for (size_t i = N - 1; i-- > 0;) y = hn::MulAdd(y, x, Const(d, c[i]));
-  return y;
+  const Vec<D> first = Const(d, c[kFirst]);
+  if constexpr (kFirst + kStep >= N) {
+    return first;
+  } else {
+    return hn::MulAdd(Polynomial<kFirst + kStep, kStep>(d, x, c), x, first);
+  }
+}
+
+// sum_i c[i] x^i in half the latency: even and odd powers apart.
+template <class D, size_t N>
+HWY_INLINE Vec<D> SplitPolynomial(D d, Vec<D> x, const double (&c)[N]) {
+  const Vec<D> x2 = hn::Mul(x, x);
+  return hn::MulAdd(Polynomial<1, 2>(d, x2, c), x, Polynomial<0, 2>(d, x2, c));
 }
 
 // factor e^(x + tail), tail a correction of at most a few ulps of x, rounded once into the subnormal range
@@ -526,6 +559,117 @@ struct ErfcxDefectOp {
     y = unused = hn::Mul(hn::Mul(t, t), ErfcxDefectOverT2<A>(d, t));
   }
 };
+
+// u below 1, for the total functions of the samplers; NaN passes.
+template <class D>
+HWY_INLINE Vec<D> BelowOne(D d, Vec<D> u) {
+  const Vec<D> largest = Const(d, kIsFloat<D> ? 0x1.fffffep-1 : 0x1.fffffffffffffp-1);
+  return hn::IfThenElse(hn::Gt(u, largest), largest, u);
+}
+
+// u of a uniform random number, counting as at least the smallest normal float, which no flush of subnormal
+// numbers changes: what is infinite at 0 is finite there, and no tail that numbers of 24 or 32 bits reach is
+// cut. NaN passes.
+template <class D>
+HWY_INLINE Vec<D> FromTiny(D d, Vec<D> u) {
+  const Vec<D> least = Const(d, 0x1p-126);
+  return hn::IfThenElse(hn::Lt(u, least), least, u);
+}
+
+// erfcx(x) = e^(x^2) erfc(x) for x >= 0, as t P(t) with t = 1/(1 + 0.4 x): smooth and positive down to its
+// limit 1/(sqrt(pi) x).
+template <Accuracy A, class D>
+HWY_INLINE Vec<D> Erfcx(D d, Vec<D> x) {
+  const Vec<D> one = Const(d, 1);
+  const Vec<D> t = RefinedReciprocal<A>(d, hn::MulAdd(x, Const(d, 0.4), one));
+  // sollya: y = (1/x-1)/0.4; fpminimax(exp(y^2)*erfc(y)/x, n, [|24...|], [1/(1+32*0.4);1], relative), n = 6:
+  // 2^-17.8, 10: 2^-27.4; x = t - 1/2, 24 ([|53...|]): 2^-55
+  if constexpr (A == Accuracy::kFast) {
+    return hn::Mul(t, SplitPolynomial(d, t,
+                                      {0.225689024, 0.225437433, 0.208350003, 0.177913621, 0.0745333062,
+                                       0.18193388, -0.0938617364}));
+  } else if constexpr (kIsFloat<D>) {
+    return hn::Mul(t,
+                   SplitPolynomial(d, t,
+                                   {0.225676, 0.225670069, 0.20769456, 0.171137556, 0.121694066, 0.0763078928,
+                                    -0.0328899249, 0.120872512, -0.22311528, 0.135212198, -0.0282596555}));
+  } else {
+    return hn::Mul(
+        t,
+        SplitPolynomial(
+            d, hn::Sub(t, Const(d, 0.5)),
+            {0.42161272812228717,     0.64372147955131909,    0.72626258663694887,   0.5480036647873594,
+             0.18151392084552104,     -0.10743096707358327,   -0.1233609094524223,   0.022487463397575187,
+             0.071955839878170988,    -0.011941440331481864,  -0.046123009175867348, 0.016000728577680663,
+             0.029892818711005451,    -0.022130155723784621,  -0.015299554592772891, 0.025693142588432555,
+             -3.8424790059092804e-05, -0.023249979307561671,  0.013829187757694357,  0.013604795894293413,
+             -0.019802578870377972,   -0.0015478527325451048, 0.01352635002469703,   -0.0032382219352775432,
+             -0.0027006739659174569}));
+  }
+}
+
+// The same on its own. Float lanes lose bits of a small x in t.
+struct ErfcxOp {
+  template <Accuracy A, class D>
+  static HWY_INLINE void Run(D d, Vec<D>& y, Vec<D>& unused, Vec<D> x) {
+    y = unused = Erfcx<A>(d, x);
+  }
+};
+
+// y = erfinv(2 u - 1), its sign that of u - 1/2, for u in [0, 1); u counts as at least 2^-126. With x = |2 u
+// - 1| and s^2 = -log(1 - x^2), y/x is a polynomial of s^2 up to s^2 = 5, and y/(x s) one of 1/(1 + s)
+// beyond.
+template <Accuracy A, class D>
+HWY_INLINE Vec<D> ErfInv(D d, Vec<D> u) {
+  const Vec<D> one = Const(d, 1), half = Const(d, 0.5);
+  u = FromTiny(d, BelowOne(d, u));
+  const Vec<D> x = hn::Sub(u, half), w = hn::Sub(one, u);
+  const Vec<D> s2 = hn::Neg(Log<A>(d, hn::Mul(hn::Mul(u, Const(d, 4)), w)));
+  const Vec<D> s = CloseSqrt<A>(d, hn::Max(s2, hn::Zero(d)));
+  const Vec<D> c = hn::Sub(s2, Const(d, 2.5));
+  const Vec<D> v = hn::Sub(RefinedReciprocal<A>(d, hn::Add(s, one)), Const(d, 0.2));
+  // Chebyshev interpolation of erfinv(x)/x in s^2 - 2.5 on [0, 5], degrees 5: 2^-14.9, 11: 2^-23.7, 25:
+  // 2^-54.3; of erfinv(x)/(x s) in 1/(1 + s) - 0.2 for s up to 9.3, degrees 5: 2^-15.1, 12: 2^-24.0.
+  Vec<D> centre, tail;
+  if constexpr (A == Accuracy::kFast) {
+    centre = Polynomial(
+        d, c, {1.50138462, 0.246643215, -0.00410591252, -0.0012612415, 0.000187412908, -1.17246111e-06});
+    tail = Polynomial(d, v, {0.959973037, -0.309344977, -0.234213695, 1.92677879, 16.6557159, 116.609673});
+  } else {
+    tail = Polynomial(d, v,
+                      {0.959945917, -0.309667677, -0.190131485, 2.1654501, 4.86242723, 58.6711388, 942.995605,
+                       7094.51709, -10951.8125, -430484.625, -1058572.88, 8720677, 34251876});
+    if constexpr (kIsFloat<D>) {
+      centre = Polynomial(
+          d, c,
+          {1.50140929, 0.24664028, -0.00417732494, -0.00125270791, 0.000218264118, -4.99599992e-06,
+           -3.42626618e-06, 4.78689685e-07, 1.65036447e-08, -1.08617613e-08, 4.34062675e-10, 1.23465765e-10});
+    } else {
+      centre = Polynomial(
+          d, c,
+          {1.501409351110792,       0.246640276744167,       -0.0041773177243836267,  -0.0012527079078108632,
+           0.00021825026434410554,  -4.9960795995576159e-06, -3.4166195967501582e-06, 4.7872521989902983e-07,
+           1.3416804111154447e-08,  -1.0861170431995838e-08, 9.0730326958716992e-10,  1.1960798667790424e-10,
+           -3.110253901893291e-11,  9.1113312846659112e-13,  5.3553063644565966e-13,  -7.6001879150543628e-14,
+           -2.8526692598750598e-15, 1.8727286000199051e-15,  -1.4170554303333301e-16, -2.3812487620808927e-17,
+           5.4805033357619391e-18,  -6.4621808612046553e-20, -1.0545798226936863e-19, 1.0036550555220893e-20,
+           1.0170247759811024e-21,  -1.7255492952198284e-22});
+    }
+  }
+  const Vec<D> twice = hn::Add(x, x);
+  tail = hn::Mul(tail, s);
+  if constexpr (!kIsFloat<D>) {
+    // A step of Halley's method on erfc(y) = p, y > 0, leaves the square of what is missing times 2^-48.
+    const Vec<D> p = hn::Mul(Const(d, 2), hn::Min(u, w)), y = hn::Mul(hn::Abs(twice), tail);
+    Vec<D> y2, y2_tail;
+    TwoProduct(d, y, y, y2, y2_tail);
+    const Vec<D> rest =
+        hn::Mul(hn::Sub(Erfcx<A>(d, y), ExpTimes<A>(d, y2, y2_tail, p)), Const(d, 0.88622692545275801));
+    const Vec<D> better = hn::Add(y, hn::Div(rest, hn::NegMulAdd(y, rest, one)));
+    return hn::IfThenElse(hn::Gt(s2, Const(d, 5)), hn::CopySign(better, x), hn::Mul(twice, centre));
+  }
+  return hn::Mul(twice, hn::IfThenElse(hn::Gt(s2, Const(d, 5)), tail, centre));
+}
 
 }  // namespace
 }  // namespace HWY_NAMESPACE

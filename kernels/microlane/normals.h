@@ -58,9 +58,11 @@ class NormalLanes {
     Run<NormalQuantity::kSampleNormal>(CallBuilder<T>().In(u1).In(u2).Out(m).Out(pdf), p..., accuracy, n);
   }
 
-  // Normals m with density pdf = DVisible(v, m), in 1/sr, from uniform numbers in [0, 1): u1 is the height on
-  // the spherical cap, u2 its azimuth. m.z > 0 whatever the side of v. With them, the weight of a reflection
-  // is F G2/G1, never above 1. Dupuy and Benyoub 2023. sample_visible_normal.
+  // Normals m with density pdf = DVisible(v, m), in 1/sr, from uniform numbers in [0, 1): of GGX, u1 is the
+  // height on the spherical cap and u2 its azimuth (Dupuy and Benyoub 2023); of Beckmann, u1 is the share of
+  // visible normals that slope more towards v and u2 that of those that slope less across it. m.z > 0
+  // whatever the side of v. With them, the weight of a reflection is F G2/G1, never above 1.
+  // sample_visible_normal.
   static void SampleVisibleNormal(std::size_t n, const Directions<T>& v, const T* u1, const T* u2,
                                   const P&... p, MutableDirections<T> m, T* pdf,
                                   Accuracy accuracy = Accuracy::kStandard) {

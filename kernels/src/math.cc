@@ -42,6 +42,23 @@ struct ErfcxDefectKernel {
   }
 };
 
+struct ErfcxKernel {
+  static constexpr std::string_view kId = "math.erfcx";
+  template <Accuracy A, class D>
+  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, Vec<D> a) {
+    Vec<D> unused;
+    Precisely<ErfcxOp, A>(d, out.v0, unused, a);
+  }
+};
+
+struct ErfInvKernel {
+  static constexpr std::string_view kId = "math.erfinv";
+  template <Accuracy A, class D>
+  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, Vec<D> u) {
+    out.v0 = ErfInv<A>(d, u);
+  }
+};
+
 struct AzimuthDifferenceKernel {
   static constexpr std::string_view kId = "math.azimuth_difference";
   template <Accuracy A, class D>
@@ -52,7 +69,8 @@ struct AzimuthDifferenceKernel {
 };
 
 FamilyCode FamilyOnTarget() {
-  return Family<ExpKernel, NegLog1mKernel, SinCos2PiKernel, ErfcxDefectKernel, AzimuthDifferenceKernel>();
+  return Family<ExpKernel, NegLog1mKernel, SinCos2PiKernel, ErfcxDefectKernel, ErfcxKernel, ErfInvKernel,
+                AzimuthDifferenceKernel>();
 }
 
 }  // namespace

@@ -32,6 +32,13 @@ struct Ggx {
   // (1 + Lambda(v)) |v.n| at v.n = 0: a Lambda tends to 1/2.
   Real GrazingArea(const Vec& v) const { return sqrt(ProjectedRoughness2(v, alpha)) / 2; }
 
+  // |dLambda/dv.x| + |dLambda/dv.y| + |dLambda/dv.z| at most: by 1/|v.n| and by the length |(alpha_x v.x,
+  // alpha_y v.y, v.z)| = |v.n| (1 + 2 Lambda), along x and y by the alphas.
+  Real LambdaSlope(const Vec& v) const {
+    const Real z = abs(v.z), lambda = Lambda(v);
+    return lambda * (1 / z + 1 / (z * (1 + 2 * lambda))) + Alphas() / (2 * z);
+  }
+
   // Walter 2007, Eqs. 35 and 36, stretched.
   Vec SampleNormal(const Real& u1, const Real& u2) const {
     return StretchedNormal(sqrt(u1 / (1 - u1)), u2, alpha);

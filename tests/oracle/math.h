@@ -2,6 +2,8 @@
 #ifndef MICROLANE_TESTS_ORACLE_MATH_H_
 #define MICROLANE_TESTS_ORACLE_MATH_H_
 
+#include <cmath>
+
 #include "oracle/real.h"
 
 namespace microlane::oracle {
@@ -59,6 +61,34 @@ inline Real ErfcxDefect(const Real& a) {
   sum *= rule.scale;
   if (a < rule.pi_over_h) sum += 2 * SqrtPi() * a * exp(a2) / expm1(2 * rule.pi_over_h * a);
   return sum;
+}
+
+// u of a uniform random number for what is infinite at 0.
+inline Real FromTiny(const Real& u) {
+  static const Real kLeast = ldexp(Real(1), -126);
+  return u < kLeast ? kLeast : u;
+}
+
+// exp(x^2) erfc(x).
+inline Real Erfcx(const Real& x) { return exp(x * x) * erfc(x); }
+
+// erfinv(2 u - 1), u at least 2^-126: erfc(y) = p, of the tail that u is in, by Halley's method, which leaves
+// the cube of the error, from a root in double.
+inline Real ErfInv(const Real& uniform) {
+  const Real u = FromTiny(uniform);
+  const Real p = u < 0.5 ? Real(2 * u) : Real(2 * (1 - u));
+  const double rough = static_cast<double>(p);
+  double start = std::sqrt(-std::log(rough));
+  for (int i = 0; i < 12; ++i) {
+    const double h = (std::erfc(start) - rough) * std::exp(start * start) * 0.886226925452758;
+    start += h / (1 - start * h);
+  }
+  Real y = start;
+  for (int i = 0; i < 3; ++i) {
+    const Real h = (erfc(y) - p) * exp(y * y) * SqrtPi() / 2;
+    y += h / (1 - y * h);
+  }
+  return u < 0.5 ? Real(-y) : y;
 }
 
 }  // namespace microlane::oracle

@@ -62,16 +62,39 @@ void StoreNormal(const Distribution& distribution, Call& call) {
   call.out[3] = distribution.D(m) * m.z;  // Walter 2007, Eq. 24
 }
 
+// A visible normal, the share of them that is drawn from, and what Metric::kDirection and kConditioned make
+// of it.
+struct VisibleSample {
+  Vec m;
+  Real share, direction_kappa, kappa;
+};
+
+const Real& Larger(const Real& a, const Real& b) { return a > b ? a : b; }
+
+template <bool kBounded>
+VisibleSample SampleVisible(const Ggx& ggx, const Vec& v, const Real& u1, const Real& u2) {
+  const Real k = kBounded ? CapBound(v, ggx.alpha) : Real(1);
+  const CapNormal normal = VisibleNormal(v, u1, u2, ggx.alpha, k);
+  const Real stretched = CapCancellation(normal, ggx.alpha);
+  return {normal.m, (1 + k * normal.view.z) / (1 + normal.view.z), stretched,
+          Larger(stretched, CapCancellation(normal, {1, 1}))};
+}
+template <bool kBounded>
+VisibleSample SampleVisible(const Beckmann& beckmann, const Vec& v, const Real& u1, const Real& u2) {
+  const BeckmannNormal normal = VisibleNormal(beckmann, v, u1, u2);
+  const Real stretched = Cancellation(normal.sizes, normal.h, beckmann.alpha);
+  return {normal.m, 1, stretched,
+          Larger(stretched, Cancellation(normal.sizes, normal.h, {1, 1})) + normal.end_share};
+}
+
 template <bool kBounded, class Distribution>
 void StoreVisibleNormal(const Distribution& distribution, Call& call) {
   const Vec v = Direction(call.in);
-  const Real k = kBounded ? CapBound(v, distribution.alpha) : Real(1);
-  const CapNormal normal = VisibleNormal(v, call.in[3], call.in[4], distribution.alpha, k);
+  const VisibleSample normal = SampleVisible<kBounded>(distribution, v, call.in[3], call.in[4]);
   Store(normal.m, call.out);
-  call.out[3] = distribution.DVisible(v, normal.m) * (1 + normal.view.z) / (1 + k * normal.view.z);
-  call.direction_kappa = CapCancellation(normal, distribution.alpha);
-  const Real unstretched = CapCancellation(normal, {1, 1});
-  call.kappa = call.direction_kappa > unstretched ? call.direction_kappa : unstretched;
+  call.out[3] = distribution.DVisible(v, normal.m) / normal.share;
+  call.direction_kappa = normal.direction_kappa;
+  call.kappa = normal.kappa;
 }
 
 // The ideal mirror about a visible normal: Walter 2007, Eqs. 14 and 39; the weight is f |cos(theta_o)| / pdf
@@ -79,35 +102,29 @@ void StoreVisibleNormal(const Distribution& distribution, Call& call) {
 template <bool kBounded, class Distribution>
 void StoreVisibleReflection(const Distribution& distribution, Call& call) {
   const Vec wi = Direction(call.in);
-  const Roughness& alpha = distribution.alpha;
-  const Real k = kBounded ? CapBound(wi, alpha) : Real(1);
-  const CapNormal normal = VisibleNormal(wi, call.in[3], call.in[4], alpha, k);
+  const VisibleSample normal = SampleVisible<kBounded>(distribution, wi, call.in[3], call.in[4]);
   const Real side = wi.z < 0 ? -1 : 1;
   const Vec wo = Reflect(wi, side * normal.m);
-  call.direction_kappa = CapCancellation(normal, alpha);
+  call.direction_kappa = normal.direction_kappa;
   call.margin = static_cast<double>(Real(abs(wo.z) / call.direction_kappa));
   const bool reflects = call.lobe_hint >= 0 ? call.lobe_hint != 0 : side * wo.z > 0;
   for (std::size_t i = 0; i < 6; ++i) call.out[i] = 0;
   if (!reflects) return;
   Store(wo, call.out);
-  const Real share = (1 + k * normal.view.z) / (1 + normal.view.z);
-  // |wi.n| times Lambda; 2 Lambda a tends to 1 at wi.n = 0.
+  // |wi.n| times Lambda; |wi.n| (1 + Lambda) has a limit at wi.n = 0.
   const Real lambda_i =
       wi.z == 0 ? Real(distribution.GrazingArea(wi)) : Real(abs(wi.z) * distribution.Lambda(wi));
   const Real lambda_o = abs(wi.z) * distribution.Lambda(wo);
-  const Real shadowed = lambda_o / (abs(wi.z) + lambda_i + lambda_o);
-  call.out[3] = share * (1 - shadowed);
-  call.out[4] = distribution.DVisible(wi, normal.m) / share * ReflectionJacobian(Dot(wi, normal.m));
+  const Real visible = abs(wi.z) + lambda_i + lambda_o;
+  call.out[3] = normal.share * (1 - lambda_o / visible);
+  call.out[4] = distribution.DVisible(wi, normal.m) / normal.share * ReflectionJacobian(Dot(wi, normal.m));
   call.out[5] = 1;
-  const Real unstretched = CapCancellation(normal, {1, 1});
-  call.kappa = call.direction_kappa > unstretched ? call.direction_kappa : unstretched;
-  // |d ln(weight)| for changes of wo by 1 along each axis, at most: by 1/|wo.n| and by the length
-  // |(alpha_x wo.x, alpha_y wo.y, wo.z)| = |wo.n| (1 + 2 Lambda_o), along x and y by the alphas.
-  const Real visible = abs(wi.z) + lambda_i + lambda_o, alphas = alpha.alpha_x + alpha.alpha_y;
-  const Real length = abs(wo.z) * (1 + 2 * distribution.Lambda(wo));
-  const Real slope = shadowed * (1 / abs(wo.z) + 1 / length) + abs(wi.z) * alphas / (2 * abs(wo.z) * visible);
-  call.weight_kappa = 1 + call.direction_kappa * slope;
-  call.weight_curvature = static_cast<double>(Real(call.direction_kappa * (1 / abs(wo.z) + alphas / length)));
+  call.kappa = normal.kappa;
+  // |d ln(weight)| for changes of wo by 1 along each axis, at most.
+  call.weight_kappa = 1 + call.direction_kappa * abs(wi.z) * distribution.LambdaSlope(wo) / visible;
+  const Real length = sqrt(ProjectedRoughness2(wo, distribution.alpha) + wo.z * wo.z);
+  call.weight_curvature =
+      static_cast<double>(Real(call.direction_kappa * (1 / abs(wo.z) + distribution.Alphas() / length)));
 }
 
 // A quantity of a distribution by its place in kNormalKernelPlaces.
@@ -184,6 +201,8 @@ constexpr Entry kEntries[] = {
      }},
     {"math.erfcx_defect", [](Call& call) { call.out[0] = ErfcxDefect(call.in[0]); }},
 
+    {"math.erfcx", [](Call& call) { call.out[0] = Erfcx(call.in[0]); }},
+    {"math.erfinv", [](Call& call) { call.out[0] = ErfInv(call.in[0]); }},
     {"math.azimuth_difference",
      [](Call& call) { call.out[0] = AzimuthDifference(call.in[0], call.in[1], call.in[2], call.in[3]); }},
 

@@ -80,20 +80,26 @@ inline CapNormal VisibleNormal(const Vec& v, const Real& u1, const Real& u2, con
   return {FromUnit(h, alpha), cap, view};
 }
 
-// What stretching does to roundings of cap and view where their sum cancels: Metric::kDirection.
+// What stretching does to roundings of the parts of a normal h at unit roughness, of which `sizes` are the
+// sums without signs: Metric::kDirection.
+inline Real Cancellation(const Vec& sizes, const Vec& h, const Roughness& alpha) {
+  const Real r = alpha.r_xy, uncorrelated = sqrt(1 - r * r);
+  const auto length = [&](const Vec& m, const Real& signed_r, const Real& mean_x, const Real& mean_y) {
+    const Real across = signed_r * m.x + uncorrelated * m.y;
+    return sqrt(Square(alpha.alpha_x * m.x - mean_x * m.z) + Square(alpha.alpha_y * across - mean_y * m.z) +
+                Square(m.z));
+  };
+  return length(sizes, abs(r), -abs(alpha.mean_x), -abs(alpha.mean_y)) /
+         length(h, r, alpha.mean_x, alpha.mean_y);
+}
+
+// What it does where the sum of cap and view cancels.
 inline Real CapCancellation(const CapNormal& normal, const Roughness& alpha) {
   const Vec& c = normal.cap;
   const Vec& s = normal.view;
-  const Real r = alpha.r_xy, uncorrelated = sqrt(1 - r * r);
-  const auto length = [&](const Vec& h, const Real& signed_r, const Real& mean_x, const Real& mean_y) {
-    const Real across = signed_r * h.x + uncorrelated * h.y;
-    return sqrt(Square(alpha.alpha_x * h.x - mean_x * h.z) + Square(alpha.alpha_y * across - mean_y * h.z) +
-                Square(h.z));
-  };
-  const Vec sizes{abs(c.x) + abs(s.x), abs(c.y) + abs(s.y),
-                  alpha.mean_x == 0 && alpha.mean_y == 0 ? Real(c.z + s.z) : Real(abs(c.z) + abs(s.z))};
-  return length(sizes, abs(r), -abs(alpha.mean_x), -abs(alpha.mean_y)) /
-         length(c + s, r, alpha.mean_x, alpha.mean_y);
+  return Cancellation({abs(c.x) + abs(s.x), abs(c.y) + abs(s.y),
+                       alpha.mean_x == 0 && alpha.mean_y == 0 ? Real(c.z + s.z) : Real(abs(c.z) + abs(s.z))},
+                      c + s, alpha);
 }
 
 // chi+((v.m) / (v.n)), the sidedness of Walter 2007, Eq. 7.

@@ -70,6 +70,34 @@ struct Beckmann {
     return {{x / length, y / length, 1 / length}, pdf};
   }
 
+  // Slopes t along the azimuth of the stretched view, whose share above t is u1, and y = erfinv(2 u2 - 1)
+  // across it, stretched. The density is Heitz 2014 Eq. 16, 2 (a + t) exp(-t^2 - y^2) / (sqrt(pi) M alpha_x
+  // alpha_y m.z^3), where exp(-y^2) is taken from u2. Below the surface -v is seen.
+  SampledNormal<double> SampleVisibleNormal(const Vec3<Real>& v, double u1, double u2, bool = false) const {
+    return SampleFacing(v, u1, u2).normal;
+  }
+  // v.m is q (a + t) over the length of m before it was normalised.
+  VisibleNormal SampleFacing(const Vec3<Real>& v, double u1, double u2, bool = false) const {
+    if (AnyNan(v, u1, u2, alpha_x, alpha_y)) {
+      return {{{kNan<double>, kNan<double>, kNan<double>}, kNan<double>}, kNan<double>};
+    }
+    const double side = Side(v), qx = side * alpha_x * v.x, qy = side * alpha_y * v.y;
+    const double q = std::hypot(qx, qy), z = std::abs(v.z);
+    if (q == 0 && z == 0) return {{{0, 0, 0}, 0}, 0};
+    const double cos = q == 0 ? 1 : qx / q, sin = q == 0 ? 0 : qy / q;
+    const bool far = q * 1e18 < z;
+    const double a = far ? 1e18 : z / q;
+    const VisibleSlope slope = SolveVisibleSlope(a, InsideUnit(u1));
+    const double y = ErfInv(u2), u = InsideUnit(u2);
+    const double exp_y2 = 2 * (u < 0.5 ? u : 1 - u) / Erfcx(std::abs(y));
+    const Vec3<double> m{alpha_x * (cos * slope.t - sin * y), alpha_y * (sin * slope.t + cos * y), 1};
+    const double length2 = Dot(m, m), length = std::sqrt(length2);
+    const double area = kSqrtPi<double> / 2 * alpha_x * alpha_y;
+    return {{m / length, slope.density * exp_y2 * length * (length2 / area)},
+            (far ? z : q * (a + slope.t)) / length};
+  }
+  static double ShareOfVisible(const Vec3<Real>&, bool) { return 1; }
+
   // Walter 2007 section 5.3: wider sampling towards grazing bounds the weights.
   Beckmann<double> Widened(double cos_i) const {
     const double scale = 1.2 - 0.2 * std::sqrt(std::abs(cos_i));
@@ -77,6 +105,40 @@ struct Beckmann {
   }
 
  private:
+  struct VisibleSlope {
+    double t, density;  // (a + t) exp(-t^2) / M
+  };
+
+  // The t >= -a for which u M = sqrt(pi) a erfc(t) + exp(-t^2), M its value at -a, from the nearer end: the
+  // share above t = 0 in terms of erfcx(t), that below in terms of erfcx(-t) and of D = M - 2 sqrt(pi) a.
+  // Halley's method, kept within a bracket that every step narrows: a step that leaves it is replaced by its
+  // middle.
+  static VisibleSlope SolveVisibleSlope(double a, double u) {
+    const double root_pi_a = kSqrtPi<double> * a;
+    const double defect = a < 26 ? ErfcxDefect(a) / ExpOfSquare(a) : 0;
+    const double whole = 2 * root_pi_a + defect, below = (1 - u) * whole;
+    const bool negative = u * whole > root_pi_a + 1;
+    double low = negative ? -std::min(a, 10.0) : 0, high = negative ? 0 : 10;
+    // Where the share from t = 0 on were that of a = 0.
+    const double part = negative ? (whole - root_pi_a - 1) / below : (root_pi_a + 1) / (u * whole);
+    const double radius = std::sqrt(std::log(std::max(part, 1.0)));
+    double t = negative ? std::max(-radius, 0.999 * low) : radius;
+    for (int i = 0; i < 100; ++i) {
+      const double exp_t2 = ExpOfSquare(t), delta = a + t;
+      const double rest = negative ? (below - defect) * exp_t2 + 1 - root_pi_a * Erfcx(-t)
+                                   : 1 + root_pi_a * Erfcx(t) - u * whole * exp_t2;
+      (rest > 0 ? low : high) = t;
+      const double step = 2 * delta * rest / (4 * delta * delta + (1 - 2 * t * delta) * rest);
+      const double next = t + step;
+      const bool inside = next > low && next < high;
+      const double previous = t;
+      t = inside ? next : (low + high) / 2;
+      if (std::abs(t - previous) <= 1e-16 * std::abs(t)) break;
+    }
+    const double density = negative ? 1 / (whole * ExpOfSquare(t)) : u / (1 + root_pi_a * Erfcx(t));
+    return {t, (a + t) * density};
+  }
+
   Wide<Real> StretchedTangent2(const Vec3<Real>& v) const {
     return Square(Wide<Real>(alpha_x) * Wide<Real>(v.x)) + Square(Wide<Real>(alpha_y) * Wide<Real>(v.y));
   }

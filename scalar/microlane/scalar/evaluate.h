@@ -160,6 +160,15 @@ constexpr auto Entries() {
       Entry<Real>{"math.erfcx_defect",
                   [](const Real* in, Real* out, Transport) { out[0] = ErfcxDefect(in[0]); }},
 
+      Entry<Real>{"math.erfcx",
+                  [](const Real* in, Real* out, Transport) {
+                    out[0] = IsNan(in[0]) ? in[0] : static_cast<Real>(Erfcx(in[0]));
+                  }},
+      Entry<Real>{"math.erfinv",
+                  [](const Real* in, Real* out, Transport) {
+                    out[0] = IsNan(in[0]) ? in[0] : static_cast<Real>(ErfInv(in[0]));
+                  }},
+
       Entry<Real>{"math.azimuth_difference",
                   [](const Real* in, Real* out, Transport) {
                     out[0] = AnyNan(in[0], in[1], in[2], in[3])

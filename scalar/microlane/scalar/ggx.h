@@ -59,14 +59,11 @@ struct Ggx {
   // Tokuyoshi 2023.
   SampledNormal<double> SampleVisibleNormal(const Vec3<Real>& v, double u1, double u2,
                                             bool bounded = false) const {
-    return SampleCap(v, u1, u2, bounded).normal;
+    return SampleFacing(v, u1, u2, bounded).normal;
   }
 
-  struct CapNormal {
-    SampledNormal<double> normal;
-    double v_m;  // |v.m| = |q| h.h / (2 |m|) of the stretched view q and m before it was normalised
-  };
-  CapNormal SampleCap(const Vec3<Real>& v, double u1, double u2, bool bounded) const {
+  // |v.m| = |q| h.h / (2 |m|) of the stretched view q and m before it was normalised.
+  VisibleNormal SampleFacing(const Vec3<Real>& v, double u1, double u2, bool bounded) const {
     if (AnyNan(v, u1, u2, alpha_x, alpha_y)) {
       return {{{kNan<double>, kNan<double>, kNan<double>}, kNan<double>}, kNan<double>};
     }
@@ -90,7 +87,7 @@ struct Ggx {
   }
 
   // The share of the cap that is left to bounded sampling: (1 + k s.z) / (1 + s.z).
-  double CapShare(const Vec3<Real>& v, bool bounded) const {
+  double ShareOfVisible(const Vec3<Real>& v, bool bounded) const {
     const double tangent = Hypot<Real>(double{alpha_x} * v.x, double{alpha_y} * v.y), z = std::abs(v.z);
     const double length = Hypot<Real>(tangent, z);
     return (length + CapBound(v, bounded).k * z) / (length + z);
@@ -118,30 +115,6 @@ struct Ggx {
     return Narrow<double>(area) / kPi<double> * Square(Narrow<double>(area * length2 / stretched));
   }
 };
-
-// A direction into which the ideal mirror reflects wi about a visible normal; all 0 where it is not on wi's
-// side.
-struct SampledReflection {
-  Vec3<double> wo;
-  double weight, pdf, lobe;
-};
-
-// Walter 2007 Eqs. 14 and 39 about m of SampleVisibleNormal. weight = f |cos| / pdf = G2/G1 times the share
-// of the cap, where F, D and the Jacobian are gone: (|wi.n| (1 + Lambda_i)) / (|wi.n| (1 + Lambda_i +
-// Lambda_o)).
-template <class Real>
-SampledReflection SampleVisibleReflection(const Ggx<Real>& ggx, const Vec3<Real>& wi, double u1, double u2,
-                                          bool bounded) {
-  const auto [normal, v_m] = ggx.SampleCap(wi, u1, u2, bounded);
-  if (AnyNan(normal.m)) return {normal.m, kNan<double>, kNan<double>, kNan<double>};
-  const double side = Side(wi);
-  const Vec3<double> v{side * wi.x, side * wi.y, side * wi.z};
-  const Vec3<double> wo = (2 * Dot(v, normal.m)) * normal.m - v;  // of the length of v
-  if (!(wo.z > 0)) return {{0, 0, 0}, 0, 0, 0};
-  const double cos_i = v.z + ggx.ScaledLambda(wi, 1);
-  const double lambda_o = Ggx<double>{ggx.alpha_x, ggx.alpha_y}.ScaledLambda(wo, v.z / wo.z);
-  return {side * wo, ggx.CapShare(wi, bounded) * cos_i / (cos_i + lambda_o), normal.pdf / (4 * v_m), 1};
-}
 
 template <class Real>
 bool IsNan(const Ggx<Real>& d) {

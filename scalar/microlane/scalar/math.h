@@ -210,6 +210,35 @@ Real ErfcxDefect(Real a) {
   return sum / kSqrtPi<Real>;
 }
 
+// u of a uniform random number for what is infinite at 0 and 1: from the smallest normal float to the largest
+// double below 1.
+inline double InsideUnit(double u) { return u < 0x1p-126 ? 0x1p-126 : u < 1 ? u : 1 - 0x1p-53; }
+
+// exp(x^2) erfc(x) for x >= 0, without their range and rounding where x is not small.
+inline double Erfcx(double x) {
+  if (x < 1) return std::exp(x * x) * std::erfc(x);
+  return (1 - ErfcxDefect(x)) / (kSqrtPi<double> * x);
+}
+
+// exp(x^2), with the rounding error of x^2.
+inline double ExpOfSquare(double x) { return ExpWide(TwoProduct(x, x)); }
+
+// y = erfinv(2 u - 1): erfc(|y|) = p, the tail that u is in, by Halley's method. As a function of log p the
+// tail is close to a parabola, and the iteration, which is monotonic after its first step, is within a
+// rounding after four. Where p is near 1, y comes from 2 u - 1, which is exact.
+inline double ErfInv(double u) {
+  u = InsideUnit(u);
+  const double x = 2 * (u - 0.5), p = 2 * (u < 0.5 ? u : 1 - u);
+  double y = std::sqrt(-std::log(p));
+  for (int i = 0; i < 8; ++i) {
+    const double rest =
+        y < 0.5 ? (std::abs(x) - std::erf(y)) * ExpOfSquare(y) : Erfcx(y) - p * ExpOfSquare(y);
+    const double h = kSqrtPi<double> / 2 * rest;
+    y += h / (1 - y * h);
+  }
+  return x < 0 ? -y : y;
+}
+
 }  // namespace microlane::scalar
 
 #endif  // MICROLANE_SCALAR_MATH_H_

@@ -61,6 +61,38 @@ double G2OverCos(const Distribution<Real>& distribution, const Vec3<Real>& wi, c
   return 1 / (visible + distribution.ScaledLambda(wo, cos_i / std::abs(wo.z)));
 }
 
+// A visible normal with v_m = |v.m|.
+struct VisibleNormal {
+  SampledNormal<double> normal;
+  double v_m;
+};
+
+// A direction into which the ideal mirror reflects wi about a visible normal; all 0 where it is not on wi's
+// side.
+struct SampledReflection {
+  Vec3<double> wo;
+  double weight, pdf, lobe;
+};
+
+// Walter 2007 Eqs. 14 and 39 about m of SampleVisibleNormal. weight = f |cos| / pdf = G2/G1 times the share
+// of the visible normals that are drawn from, where F, D and the Jacobian are gone: (|wi.n| (1 + Lambda_i)) /
+// (|wi.n| (1 + Lambda_i + Lambda_o)).
+template <template <class> class Distribution, class Real>
+SampledReflection SampleVisibleReflection(const Distribution<Real>& distribution, const Vec3<Real>& wi,
+                                          double u1, double u2, bool bounded) {
+  const auto [normal, v_m] = distribution.SampleFacing(wi, u1, u2, bounded);
+  if (AnyNan(normal.m)) return {normal.m, kNan<double>, kNan<double>, kNan<double>};
+  const double side = Side(wi);
+  const Vec3<double> v{side * wi.x, side * wi.y, side * wi.z};
+  const Vec3<double> wo = (2 * Dot(v, normal.m)) * normal.m - v;  // of the length of v
+  if (!(wo.z > 0)) return {{0, 0, 0}, 0, 0, 0};
+  const double cos_i = v.z + distribution.ScaledLambda(wi, 1);
+  const double lambda_o =
+      Distribution<double>{distribution.alpha_x, distribution.alpha_y}.ScaledLambda(wo, v.z / wo.z);
+  return {side * wo, distribution.ShareOfVisible(wi, bounded) * cos_i / (cos_i + lambda_o),
+          normal.pdf / (4 * v_m), 1};
+}
+
 }  // namespace microlane::scalar
 
 #endif  // MICROLANE_SCALAR_SMITH_H_
