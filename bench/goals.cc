@@ -20,7 +20,7 @@ void SetGoals(ReportData& data) {
     double largest = 0;
     std::size_t worst = 0, within = 0, broken = 0, count = 0;
     for (const KernelResult& result : data.kernels) {
-      const bool is_whole = kKernels[result.kernel].id.substr(0, 16) == "rough_dielectric";
+      const bool is_whole = result.kernel >= kFirstDielectricKernel;
       if (!(is_whole ? whole : component)) continue;
       const PathResult& reached = result[path];
       ++count;
@@ -76,6 +76,8 @@ void SetGoals(ReportData& data) {
   speed("GGX: a visible normal, reflection, weight and density, standard, against textbook",
         "ggx.sample_visible_reflection", Path::kStandard, 40);
   speed("Beckmann: the same", "beckmann.sample_visible_reflection", Path::kStandard, 60);
+  speed("Beckmann reflection value with exact Lambda, standard, against textbook",
+        "rough_dielectric_beckmann.eval_reflection", Path::kStandard, 30);
 
   if (CanCountOperations()) {
     const Operations& operations =

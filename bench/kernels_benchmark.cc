@@ -1,7 +1,8 @@
 // Google Benchmark over the kernel list: every kernel, accuracy and target, per-lane and uniform parameters,
 // throughput at 16, 256 and 4096 lanes and latency at 1; the textbook code and the arrays merely loaded and
 // stored beside them. Names read `<kernel>/<accuracy>/<target>/<parameters>/<lanes>`, so --benchmark_filter
-// picks any part of it:
+// picks any part of it. rough_conductor.eval/channels_<N> is one call for N wavelengths, per lane of a
+// surface:
 //   kernels_benchmark --benchmark_filter='ggx\.D/.*/AVX3/per_lane/4096'
 #include <benchmark/benchmark.h>
 #include <fmt/core.h>
@@ -18,8 +19,10 @@
 #include "command.h"
 #include "microlane/kernel_list.h"
 #include "microlane/kernels.h"
+#include "microlane/rough_reflector.h"
 #include "microlane/targets.h"
 #include "performance.h"
+#include "stopwatch.h"
 #include "textbook.h"
 #include "workload.h"
 
@@ -93,6 +96,53 @@ void Copy(benchmark::State& state, std::size_t kernel, const std::string& target
   });
 }
 
+// Rough conductors of several wavelengths, the same for the batch; x_separate: how many times as fast as a
+// call for each.
+void Channels(benchmark::State& state, std::size_t channels, Accuracy accuracy, const std::string& target) {
+  ChooseTarget(target);
+  constexpr std::size_t kLanes = 4096;
+  const Workload workload(KernelIndex("rough_conductor.eval"), kLanes, Parameters::kPerLane);
+  const Call<float>& call = workload.call();
+  const Directions<float> wi{call.in[0], call.in[1], call.in[2]}, wo{call.in[3], call.in[4], call.in[5]};
+  const StretchedRoughness<float> roughness{call.in[6], call.in[7]};
+  std::vector<std::vector<float>> out(channels, std::vector<float>(kLanes));
+  std::vector<float*> to;
+  std::vector<FacetParameters<Reflector::kConductor, float>> facets;
+  for (std::size_t c = 0; c < channels; ++c) {
+    const double at = static_cast<double>(c) / static_cast<double>(channels);
+    facets.push_back({0.2 + 1.3 * at, 3.5 - 1.5 * at});  // about gold's
+    to.push_back(out[c].data());
+  }
+  const double separate =
+      Measure(0.03,
+              [&] {
+                for (std::size_t c = 0; c < channels; ++c) {
+                  rough_conductor::Eval(kLanes, wi, wo, {roughness, facets[c]}, to[c], accuracy);
+                }
+              })
+          .min /
+      static_cast<double>(kLanes);
+  Repeat(state, kLanes, 0, 0, [&] {
+    rough_conductor::EvalChannels(kLanes, wi, wo, roughness, channels, facets.data(), to.data(), accuracy);
+    benchmark::ClobberMemory();
+  });
+  state.counters["x_separate"] = separate / static_cast<double>(state.counters["ns_per_lane"]);
+}
+
+void RegisterChannels() {
+  for (const std::string& target : SupportedTargets()) {
+    for (const Accuracy accuracy : {Accuracy::kStandard, Accuracy::kFast}) {
+      for (const std::size_t channels : {1, 3, 4, 8, 16}) {
+        benchmark::RegisterBenchmark(
+            fmt::format("rough_conductor.eval/channels_{}/{}/{}/uniform/4096", channels, Name(accuracy),
+                        target)
+                .c_str(),
+            [=](benchmark::State& state) { Channels(state, channels, accuracy, target); });
+      }
+    }
+  }
+}
+
 void RegisterKernel(std::size_t kernel) {
   const std::string id(kKernels[kernel].id);
   for (const Parameters parameters : kParameters) {
@@ -162,6 +212,7 @@ int main(int argc, char** argv) {
   benchmark::Initialize(&count, arguments.data());
   if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) return 2;
   for (std::size_t k = 0; k < microlane::kNumKernels; ++k) microlane::RegisterKernel(k);
+  microlane::RegisterChannels();
   if (!listing) microlane::AddCeilings();
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();

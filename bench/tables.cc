@@ -51,7 +51,10 @@ void WriteReadmeTable(const ReportData& data, Csv& table) {
                                          "rough_dielectric.eval",
                                          "rough_dielectric.eval_pdf",
                                          "rough_dielectric.sample",
-                                         "rough_dielectric_beckmann.eval"};
+                                         "rough_dielectric_beckmann.eval",
+                                         "rough_conductor.eval",
+                                         "ggx.sample_visible_reflection",
+                                         "beckmann.sample_visible_reflection"};
   table.Line("| kernel | textbook | high | standard | fast |\n|---|--:|--:|--:|--:|");
   for (const std::string_view id : kShown) {
     const KernelResult& result = data.kernels[KernelIndex(id)];

@@ -374,6 +374,11 @@ inline float FrComplex(float cos_theta_i, std::complex<float> eta) {
   return (std::norm(parallel) + std::norm(perpendicular)) / 2;
 }
 
+inline float FrSchlick(float cos_theta_i, float f0) {
+  const float x = std::clamp(1 - std::abs(cos_theta_i), 0.f, 1.f);
+  return f0 + (1 - f0) * Sqr(Sqr(x)) * x;
+}
+
 inline Vec3 Reflect(const Vec3& wi, const Vec3& m) { return 2 * Dot(wi, m) * m - wi; }
 
 // Snell's law about m on wi's side.
@@ -468,6 +473,48 @@ struct RoughDielectric {
     sample.weight = cos_i * G(wi, sample.wo) / (AbsCosTheta(wi) * AbsCosTheta(wm));
     if (lobes != kBoth) sample.weight *= sample.lobe == kReflection ? F : 1 - F;
     if (sample.lobe == kTransmission && transport == Transport::kImportance) sample.weight /= Sqr(eta);
+    return sample;
+  }
+};
+
+// pbrt-v4's conductor, and Schlick's approximation or 1 in place of its Fresnel.
+template <Reflector kReflector>
+float FacetReflectance(float cos_theta_i, const float* parameters) {
+  if constexpr (kReflector == Reflector::kMirror) return 1;
+  if constexpr (kReflector == Reflector::kConductor) {
+    return FrComplex(cos_theta_i, {parameters[0], parameters[1]});
+  }
+  return FrSchlick(cos_theta_i, parameters[0]);
+}
+
+template <class Distribution, Reflector kReflector, bool kSeparable>
+struct RoughReflector {
+  // As an interface that reflects alone, for its half vector, masking and sampling.
+  RoughDielectric<Distribution, kSeparable> base;
+  const float* facets;
+
+  float Eval(const Vec3& wi, const Vec3& wo) const {
+    bool reflects;
+    Vec3 wm;
+    if (!base.HalfVector(wi, wo, kReflection, &reflects, &wm)) return 0;
+    const float F = FacetReflectance<kReflector>(AbsDot(wi, wm), facets);
+    return base.distribution.D(wm) * F * base.G(wi, wo) / (4 * AbsCosTheta(wi) * AbsCosTheta(wo)) *
+           AbsCosTheta(wo);
+  }
+  auto SampleDirection(const Vec3& wi, float u1, float u2) const {
+    constexpr typename RoughDielectric<Distribution, kSeparable>::Sample kNone = {{0, 0, 0}, 0, 0, 0};
+    auto sample = kNone;
+    if (CosTheta(wi) == 0) return kNone;
+    const Vec3 upper = base.distribution.SampleNormal(u1, u2);
+    const Vec3 wm = CosTheta(wi) < 0 ? -upper : upper;
+    const float cos_i = Dot(wi, wm);
+    if (!(cos_i > 0)) return kNone;
+    sample.wo = Reflect(wi, wm);
+    if (!SameHemisphere(wi, sample.wo)) return kNone;
+    sample.lobe = kReflection;
+    sample.pdf = base.distribution.D(upper) * AbsCosTheta(upper) / (4 * AbsDot(sample.wo, wm));
+    sample.weight = FacetReflectance<kReflector>(cos_i, facets) * cos_i * base.G(wi, sample.wo) /
+                    (AbsCosTheta(wi) * AbsCosTheta(wm));
     return sample;
   }
 };
@@ -599,6 +646,14 @@ void MaskingG1Rational(const float* in, float* out, Transport) {
   out[0] = Dot(w, Load(in + 3)) * CosTheta(w) <= 0 ? 0 : RationalG1(Beckmann::Make(in + 6).A(w));
 }
 
+template <class Sample>
+void StoreSample(const Sample& sample, float* out) {
+  Store(sample.wo, out);
+  out[3] = sample.weight;
+  out[4] = sample.pdf;
+  out[5] = static_cast<float>(sample.lobe);
+}
+
 // The rough dielectric by its place in kDielectricQuantities.
 template <class Distribution, std::size_t kQuantity>
 void Dielectric(const float* in, float* out, Transport transport) {
@@ -609,15 +664,29 @@ void Dielectric(const float* in, float* out, Transport transport) {
   const RoughDielectric<Distribution, row.separable> bsdf{Distribution::Make(parameters),
                                                           parameters[Distribution::kParameters], transport};
   if constexpr (row.what == DielectricQuantity::kSample) {
-    const auto sample = bsdf.SampleDirection(Load(in), in[3], in[4], one_lobe_sampled ? 0 : in[5], lobes);
-    Store(sample.wo, out);
-    out[3] = sample.weight;
-    out[4] = sample.pdf;
-    out[5] = static_cast<float>(sample.lobe);
+    StoreSample(bsdf.SampleDirection(Load(in), in[3], in[4], one_lobe_sampled ? 0 : in[5], lobes), out);
   } else {
     if constexpr (row.HasValue()) out[0] = bsdf.Eval(Load(in), Load(in + 3), lobes);
     if constexpr (row.what != DielectricQuantity::kEval) {
       out[row.HasValue() ? 1 : 0] = bsdf.Pdf(Load(in), Load(in + 3), lobes);
+    }
+  }
+}
+
+// An opaque surface by its place among the reflectors' kernels of its distribution.
+template <class Distribution, std::size_t kPlace>
+void OpaqueSurface(const float* in, float* out, Transport transport) {
+  constexpr DielectricQuantity row = kReflectorQuantities[kPlace % kNumReflectorQuantities];
+  constexpr auto reflector = static_cast<Reflector>(kPlace / kNumReflectorQuantities);
+  const float* const parameters = in + (row.what == DielectricQuantity::kSample ? 5 : 6);
+  const RoughReflector<Distribution, reflector, row.separable> surface{
+      {Distribution::Make(parameters), 1, transport}, parameters + Distribution::kParameters};
+  if constexpr (row.what == DielectricQuantity::kSample) {
+    StoreSample(surface.SampleDirection(Load(in), in[3], in[4]), out);
+  } else {
+    out[0] = surface.Eval(Load(in), Load(in + 3));
+    if constexpr (row.what == DielectricQuantity::kEvalPdf) {
+      out[1] = surface.base.Pdf(Load(in), Load(in + 3), kReflection);
     }
   }
 }
@@ -646,10 +715,7 @@ void ReflectanceP(const float* in, float* out, Transport) {
 void ConductorReflectance(const float* in, float* out, Transport) {
   out[0] = FrComplex(in[0], {in[1], in[2]});
 }
-void SchlickReflectance(const float* in, float* out, Transport) {
-  const float x = std::clamp(1 - std::abs(in[0]), 0.f, 1.f);
-  out[0] = in[1] + (1 - in[1]) * Sqr(Sqr(x)) * x;
-}
+void SchlickReflectance(const float* in, float* out, Transport) { out[0] = FrSchlick(in[0], in[1]); }
 
 // Whether w sees wm from its side of the surface.
 bool Sees(const Vec3& w, const Vec3& wm) { return Dot(w, wm) * CosTheta(w) > 0; }
@@ -817,6 +883,12 @@ constexpr void AddDielectrics(KernelTable<Batch>& table, std::index_sequence<kQu
    ...);
 }
 
+template <class Distribution, std::size_t... kPlace>
+constexpr void AddReflectors(KernelTable<Batch>& table, std::index_sequence<kPlace...>) {
+  constexpr std::size_t kFirst = ReflectorKernel({Distribution::kNormals, Reflector::kMirror, 0});
+  ((table[kFirst + kPlace] = {Loop<kFirst + kPlace, OpaqueSurface<Distribution, kPlace>>, true}), ...);
+}
+
 constexpr KernelTable<Batch> Resolve() {
   KernelTable<Batch> table{};
   for (const Entry& entry : kEntries) table[entry.kernel] = {entry.batch, true};
@@ -825,6 +897,10 @@ constexpr KernelTable<Batch> Resolve() {
   AddDielectrics<Ggx>(table, quantities);
   AddDielectrics<Beckmann>(table, quantities);
   AddDielectrics<Phong>(table, quantities);
+  constexpr auto places = std::make_index_sequence<kNumReflectors * kNumReflectorQuantities>();
+  AddReflectors<Ggx>(table, places);
+  AddReflectors<Beckmann>(table, places);
+  AddReflectors<Phong>(table, places);
   return table;
 }
 

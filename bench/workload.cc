@@ -27,7 +27,7 @@ class Lanes {
     beckmann_ = Contains(id, "beckmann");
     isotropic_ = Contains(inputs, "exponent") || Contains(id, "isotropic");
     reflects_ = !Contains(id, "transmission") && !Contains(id, "refract");
-    transmits_ = !Contains(id, "reflect");
+    transmits_ = !Contains(id, "reflect") && kernel < kFirstReflectorKernel;
     if (isotropic_) alpha_y_ = alpha_x_;
   }
 

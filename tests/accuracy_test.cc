@@ -14,8 +14,11 @@
 #include <vector>
 
 #include "microlane/kernel_list.h"
+#include "microlane/rough_reflector.h"
 #include "microlane/targets.h"
+#include "oracle/oracle.h"
 #include "points.h"
+#include "ulp.h"
 
 namespace microlane {
 namespace {
@@ -155,6 +158,131 @@ TEST_P(AccuracyTest, FiniteInputsGiveFiniteOutputs) {
   EXPECT_EQ(bad, 0u);
   std::printf("[points] %s finite: %zu points, 4 accuracies, %zu targets\n",
               std::string(kKernels[GetParam()].id).c_str(), count, SupportedTargets().size());
+}
+
+// Inputs of a kernel of an opaque surface, column by column.
+struct Columns {
+  std::vector<std::vector<float>> in;
+
+  Columns(std::size_t kernel, const std::vector<Point>& points)
+      : in(Split(kKernels[kernel].inputs).count, std::vector<float>(points.size())) {
+    for (std::size_t k = 0; k < in.size(); ++k) {
+      for (std::size_t j = 0; j < points.size(); ++j) in[k][j] = static_cast<float>(points[j][k]);
+    }
+  }
+  Directions<float> Direction(std::size_t k) const {
+    return {in[k].data(), in[k + 1].data(), in[k + 2].data()};
+  }
+  Parameter<float> Lanes(std::size_t k) const { return in[k].data(); }
+};
+
+template <Normals kNormals, Reflector kReflector>
+class ChannelCheck {
+  static constexpr std::size_t kRoughness = kNormals == Normals::kPhong ? 1 : 2,
+                               kFacets = kReflector == Reflector::kConductor ? 2 : 1;
+  static constexpr std::size_t kShifts = 3, kChannels[] = {1, 3, 4, 8, 16};
+
+ public:
+  explicit ChannelCheck(JointMasking masking)
+      : masking_(masking),
+        kernel_(ReflectorKernel(
+            {kNormals, kReflector,
+             FindReflectorQuantity(DielectricQuantity::kEval, masking == JointMasking::kSeparable)})) {}
+
+  // Channel c has the facets of the lane c % kShifts further on.
+  void Run() {
+    std::vector<Point> points;
+    const RandomPoints random_points(kernel_, 6);
+    const std::size_t count = LongRun() ? 100000 : 2000;
+    points.reserve(count);
+    for (std::uint64_t i = 0; i < count; ++i) points.push_back(random_points(i));
+    for (const ExtremeCase& extreme : ExtremeCases(kernel_)) {
+      if (extreme.row == "conductor" || extreme.row == "tir-edge") points.push_back(extreme.in);
+    }
+    const std::size_t n = points.size();
+    const Columns columns(kernel_, points);
+    std::vector<oracle::Result> truth(kShifts * n);
+    std::vector<std::vector<std::vector<float>>> facets(kShifts);
+    for (std::size_t shift = 0; shift < kShifts; ++shift) {
+      facets[shift].assign(kFacets, std::vector<float>(n));
+      for (std::size_t j = 0; j < n; ++j) {
+        Point shifted = points[j];
+        for (std::size_t k = 0; k < kFacets; ++k) {
+          shifted[6 + kRoughness + k] = points[(j + shift) % n][6 + kRoughness + k];
+          facets[shift][k][j] = static_cast<float>(shifted[6 + kRoughness + k]);
+        }
+        truth[shift * n + j] = oracle::Evaluate(kernel_, shifted.data(), oracle::Transport::kRadiance, -1);
+      }
+    }
+    for (const std::string& target : SupportedTargets()) {
+      for (const AccuracyOptions& options : AllAccuracies(target)) {
+        if (!options.double_lanes) RunOn(options, columns, facets, truth, n);
+      }
+    }
+    ASSERT_EQ(ChooseTarget(""), "");
+  }
+
+ private:
+  FacetParameters<kReflector, float> FacetsOfLanes(const std::vector<std::vector<float>>& lanes) const {
+    if constexpr (kReflector == Reflector::kConductor) return {lanes[0].data(), lanes[1].data()};
+    if constexpr (kReflector == Reflector::kSchlick) return {lanes[0].data()};
+  }
+
+  void RunOn(const AccuracyOptions& options, const Columns& columns,
+             const std::vector<std::vector<std::vector<float>>>& facets,
+             const std::vector<oracle::Result>& truth, std::size_t n) {
+    ASSERT_EQ(ChooseTarget(options.target), "");
+    const RoughnessOf<kNormals, float> roughness = [&]() -> RoughnessOf<kNormals, float> {
+      if constexpr (kRoughness == 1) return {columns.Lanes(6)};
+      if constexpr (kRoughness == 2) return {columns.Lanes(6), columns.Lanes(7)};
+    }();
+    constexpr float kUntouched = 12345;
+    double largest = 0;
+    for (const std::size_t channels : kChannels) {
+      std::vector<std::vector<float>> out(channels, std::vector<float>(n + 1, kUntouched));
+      std::vector<FacetParameters<kReflector, float>> parameters;
+      std::vector<float*> to;
+      for (std::size_t c = 0; c < channels; ++c) {
+        parameters.push_back(FacetsOfLanes(facets[c % kShifts]));
+        to.push_back(out[c].data());
+      }
+      RoughReflectorCalls<kNormals, kReflector>::EvalChannels(n, columns.Direction(0), columns.Direction(3),
+                                                              roughness, channels, parameters.data(),
+                                                              to.data(), options.accuracy, masking_);
+      for (std::size_t c = 0; c < channels; ++c) {
+        EXPECT_EQ(out[c][n], kUntouched);
+        if (c >= kShifts) {
+          EXPECT_EQ(std::memcmp(out[c].data(), out[c % kShifts].data(), n * sizeof(float)), 0);
+          continue;
+        }
+        if (channels != 3 && c + 1 != channels) continue;
+        for (std::size_t j = 0; j < n; ++j) {
+          const oracle::Result& exact = truth[c * n + j];
+          const double error = UlpError(out[c][j], exact.exact[0], exact.scale[0]);
+          largest = std::max(largest, error);
+          ASSERT_LE(error, DeclaredBound(kernel_, options))
+              << AccuracyName(options) << ' ' << options.target << ", channel " << c << ", lane " << j;
+        }
+      }
+    }
+    std::printf("[points] %s, 1 to 16 channels, %s %s: %zu points, largest error %.3g ULP of %g\n",
+                std::string(kKernels[kernel_].id).c_str(), AccuracyName(options).c_str(),
+                options.target.c_str(), kShifts * n, largest, DeclaredBound(kernel_, options));
+  }
+
+  JointMasking masking_;
+  std::size_t kernel_;
+};
+
+TEST(Channels, AreWithinTheBoundOfOneAndDoNotDependOnTheirNumber) {
+  for (const JointMasking masking : {JointMasking::kHeightCorrelated, JointMasking::kSeparable}) {
+    ChannelCheck<Normals::kGgx, Reflector::kConductor>(masking).Run();
+    ChannelCheck<Normals::kGgx, Reflector::kSchlick>(masking).Run();
+    ChannelCheck<Normals::kBeckmann, Reflector::kConductor>(masking).Run();
+    ChannelCheck<Normals::kBeckmann, Reflector::kSchlick>(masking).Run();
+    ChannelCheck<Normals::kPhong, Reflector::kConductor>(masking).Run();
+    ChannelCheck<Normals::kPhong, Reflector::kSchlick>(masking).Run();
+  }
 }
 
 }  // namespace

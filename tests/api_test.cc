@@ -45,6 +45,21 @@ struct Arguments {
       return {Value(k), Value(k + 1), Value(k + 2)};
     }
   }
+  template <Normals kNormals, Reflector kReflector>
+  OpaqueSurface<kNormals, kReflector, T> Opaque(int k) const {
+    const RoughnessOf<kNormals, T> roughness = [&]() -> RoughnessOf<kNormals, T> {
+      if constexpr (kNormals == Normals::kPhong) return {Value(k)};
+      if constexpr (kNormals != Normals::kPhong) return {Value(k), Value(k + 1)};
+    }();
+    const int facets = kNormals == Normals::kPhong ? k + 1 : k + 2;
+    if constexpr (kReflector == Reflector::kMirror) {
+      return {roughness, {}};
+    } else if constexpr (kReflector == Reflector::kConductor) {
+      return {roughness, {Value(facets), Value(facets + 1)}};
+    } else {
+      return {roughness, {Value(facets)}};
+    }
+  }
   DielectricSamples<T> Samples() { return {OutDirection(0), Out(3), Out(4), Out(5)}; }
 };
 
@@ -95,6 +110,32 @@ template <class T, Normals kNormals, std::size_t... kQuantity>
 void AppendDielectrics(std::vector<Row<T>>& rows, std::index_sequence<kQuantity...>) {
   (rows.push_back(
        {kKernels[DielectricKernel(kNormals, kQuantity)].id, RunDielectric<T, kNormals, kQuantity>}),
+   ...);
+}
+
+// The typed function of a kernel of an opaque surface.
+template <class T, std::size_t kKernel>
+void RunReflector(Arguments<T>& a) {
+  constexpr ReflectorKernelPlace place = PlaceOfReflectorKernel(kKernel);
+  using Calls = RoughReflectorCalls<place.normals, place.reflector>;
+  constexpr DielectricQuantity row = kReflectorQuantities[place.quantity];
+  constexpr JointMasking masking = row.separable ? JointMasking::kSeparable : JointMasking::kHeightCorrelated;
+  constexpr bool samples = row.what == DielectricQuantity::kSample;
+  const auto surface = a.template Opaque<place.normals, place.reflector>(samples ? 5 : 6);
+  const Directions<T> wi = a.Direction(0);
+  if constexpr (samples) {
+    Calls::Sample(a.n, wi, a.Lanes(3), a.Lanes(4), surface, a.Samples(), a.accuracy, masking);
+  } else if constexpr (row.what == DielectricQuantity::kEvalPdf) {
+    Calls::EvalPdf(a.n, wi, a.Direction(3), surface, a.Out(0), a.Out(1), a.accuracy, masking);
+  } else {
+    Calls::Eval(a.n, wi, a.Direction(3), surface, a.Out(0), a.accuracy, masking);
+  }
+}
+
+template <class T, std::size_t... kPlace>
+void AppendReflectors(std::vector<Row<T>>& rows, std::index_sequence<kPlace...>) {
+  (rows.push_back(
+       {kKernels[kFirstReflectorKernel + kPlace].id, RunReflector<T, kFirstReflectorKernel + kPlace>}),
    ...);
 }
 
@@ -198,6 +239,7 @@ const std::vector<Row<T>>& Rows() {
     AppendDielectrics<T, Normals::kGgx>(all, quantities);
     AppendDielectrics<T, Normals::kBeckmann>(all, quantities);
     AppendDielectrics<T, Normals::kPhong>(all, quantities);
+    AppendReflectors(all, std::make_index_sequence<kNumReflectorKernels>());
     return all;
   }();
   return rows;
@@ -384,6 +426,16 @@ TEST(Materials, NameParameterValueAndRangeOfAnError) {
             "alpha_x = nan is outside [1e-05, 100]; eta = 0 is outside [0.25, 4]");
   EXPECT_EQ(PhongDielectricMaterial(-1, 1.5).error(), "exponent = -1 is outside [0, 2e+10]");
   EXPECT_EQ(PhongDielectricMaterial(10, 5).error(), "eta = 5 is outside [0.25, 4]");
+  EXPECT_TRUE(RoughConductorMaterial({{0.1, 0.2}, {0.2, 3.4}}).ok());
+  EXPECT_EQ(
+      RoughConductorMaterial({{0.1, 0}, {0.01, -1}}).error(),
+      "alpha_y = 0 is outside [1e-05, 100]; n = 0.01 is outside [0.05, 10]; kappa = -1 is outside [0, 20]");
+  EXPECT_EQ(RoughSchlickMaterial({{0.1, 0.1}, {1.5}}).error(), "f0 = 1.5 is outside [0, 1]");
+  EXPECT_EQ(RoughMirrorMaterial({{101, 0.1}, {}}).error(), "alpha_x = 101 is outside [1e-05, 100]");
+  using PhongMirror = OpaqueMaterial<Normals::kPhong, Reflector::kMirror>;
+  EXPECT_EQ(PhongMirror({{-1.0}, {}}).error(), "exponent = -1 is outside [0, 2e+10]");
+  EXPECT_FLOAT_EQ(*RoughConductorMaterial({{0.1, 0.2}, {0.2, 3.4}}).Surface<float>().facets.kappa.data(),
+                  3.4f);
   EXPECT_EQ(CheckParameter("roughness", 0.5), "unknown parameter 'roughness'");
   EXPECT_EQ(CheckParameter("alpha", 0.5), "");
 }

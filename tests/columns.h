@@ -184,11 +184,12 @@ struct Distribution {
   std::string Id(std::string_view quantity) const {
     return std::string(family) + '.' + std::string(quantity) + std::string(form);
   }
-  // The kernels of the rough dielectric over this distribution.
-  std::string Dielectric(std::string_view quantity) const {
-    return (family == "ggx" ? "rough_dielectric." : "rough_dielectric_" + std::string(family) + '.') +
+  // The kernels of a model over this distribution.
+  std::string Model(std::string_view model, std::string_view quantity) const {
+    return std::string(model) + (family == "ggx" ? "." : "_" + std::string(family) + '.') +
            std::string(quantity);
   }
+  std::string Dielectric(std::string_view quantity) const { return Model("rough_dielectric", quantity); }
   // A bound of |d log(D(m)) / d m|: what D makes of a rounding of m.
   double LogSlope(const Direction& m) const {
     if (family == "phong") return 1 + parameters[0] / m.z;
@@ -202,6 +203,15 @@ struct Distribution {
     return text;
   }
 };
+
+// Values for the batch.
+struct Values {
+  std::vector<double> list;
+};
+template <class T>
+void Append(Arguments<T>& arguments, const Values& values) {
+  arguments.insert(arguments.end(), values.list.begin(), values.list.end());
+}
 
 template <class T>
 void Append(Arguments<T>& arguments, const Distribution& distribution) {

@@ -474,7 +474,10 @@ class SceneMaker {
     const bool upright = shape_.pairs || shape_.samples || shape_.has[kEta];
     const double side = std::copysign(1, wi.z);
     Vector facing = upright ? side * m : m;
-    if (shape_.has[kEta] && random_.Chance(0.2)) wi = AtCosine(facing, SpecialCosine(eta), wi);
+    const double index = shape_.has[kN] ? scene_[kN] : eta;
+    if ((shape_.has[kEta] || shape_.has[kN]) && random_.Chance(0.2)) {
+      wi = AtCosine(facing, SpecialCosine(index), wi);
+    }
     if (shape_.samples && random_.Chance(0.05)) wi = AtCosine(facing, random_.LogUniform(1e-8, 1e-2), wi);
     if (random_.Chance(0.7) && Dot(wi, facing) < 0 && upright) wi = wi - 2 * Dot(wi, facing) * facing;
     if (random_.Chance(0.03)) wi.z = std::copysign(random_.LogUniform(kSmallestCosine, 1e-2), wi.z);
@@ -1140,7 +1143,13 @@ class ExtremeMaker {
         }
         for (const double cosine : cosines) {
           scene[kCosI] = cosine;
-          Add("conductor", "k = 0 to 20, n = 0.05 to 10", scene);
+          if (!shape_.has[kWix]) {
+            Add("conductor", "k = 0 to 20, n = 0.05 to 10", scene);
+            continue;
+          }
+          const Vector m = shape_.samples ? SampledNormal(shape_, scene) : Normal(scene, 0.5, 0.8);
+          AddPair("conductor", "k = 0 to 20, n = 0.05 to 10", scene,
+                  AtCosine(Single(m), cosine, FromCosine(0.1, 3)), m);
         }
       }
     }

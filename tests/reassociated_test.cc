@@ -19,7 +19,7 @@
 #include "microlane/masking-inl.h"
 #include "microlane/phong-inl.h"
 #include "src/distribution_kernels-inl.h"
-#include "src/rough_dielectric_kernels-inl.h"
+#include "src/rough_surface_kernels-inl.h"
 
 #ifndef MICROLANE_TESTS_REASSOCIATED_CASE
 #define MICROLANE_TESTS_REASSOCIATED_CASE
@@ -162,6 +162,11 @@ constexpr std::size_t kEval = Quantity("eval"), kEvalReflection = Quantity("eval
                       kSample = Quantity("sample"), kSampleReflection = Quantity("sample_reflection"),
                       kSampleTransmission = Quantity("sample_transmission");
 
+template <class Dist, Normals kNormals, Reflector kReflector, DielectricQuantity::What kWhat>
+using OpaqueCase = RoughReflectorKernel<Dist, kNormals,
+                                        static_cast<std::size_t>(kReflector) * kNumReflectorQuantities +
+                                            FindReflectorQuantity(kWhat, false)>;
+
 // K over whole vectors; n is a multiple of every vector's lanes.
 template <class K, size_t... kIn>
 void OverVectors(const float* const* in, float* const* out, size_t n, std::index_sequence<kIn...>) {
@@ -217,7 +222,13 @@ Cases CasesOnTarget() {
       DielectricCase<Ggx, ggx, kSampleTransmission>, DielectricCase<Beckmann, beckmann, kEvalPdf>,
       DielectricCase<Beckmann, beckmann, kEvalReflection>, DielectricCase<Beckmann, beckmann, kSample>,
       DielectricCase<Phong, phong, kEvalPdf>, DielectricCase<Phong, phong, kEvalReflection>,
-      DielectricCase<Phong, phong, kSample>>();
+      DielectricCase<Phong, phong, kSample>,
+      OpaqueCase<Ggx, ggx, Reflector::kMirror, DielectricQuantity::kEval>,
+      OpaqueCase<Ggx, ggx, Reflector::kConductor, DielectricQuantity::kEvalPdf>,
+      OpaqueCase<Ggx, ggx, Reflector::kSchlick, DielectricQuantity::kEvalPdf>,
+      OpaqueCase<Ggx, ggx, Reflector::kConductor, DielectricQuantity::kSample>,
+      OpaqueCase<Beckmann, beckmann, Reflector::kConductor, DielectricQuantity::kEval>,
+      OpaqueCase<Phong, phong, Reflector::kSchlick, DielectricQuantity::kEval>>();
 }
 
 }  // namespace

@@ -751,6 +751,59 @@ TEST(RoughDielectricSampler, WeightsAreValueOverDensityInFloatLanes) {
   ExpectWeightsAreValueOverDensity<float>(Accuracy::kFast, "float fast");
 }
 
+// Samples of opaque surfaces: directions and densities of the dielectric's reflection, whose chi-square is
+// above, and weights that are value over density.
+TEST(OpaqueSurfaceSampler, DirectionsAreTheDielectricsAndWeightsAreValueOverDensity) {
+  struct Opaque {
+    std::string_view model;
+    Values parameters;
+  };
+  const Opaque surfaces[] = {{"rough_mirror", {{}}},
+                             {"rough_conductor", {{0.2f, 3.0f}}},
+                             {"rough_conductor", {{1.5f, 0}}},
+                             {"rough_schlick", {{0.04f}}}};
+  constexpr std::size_t kSamples = 500;
+  Tally directions("wo and pdf of the dielectric's reflection"), weights("weight = f |cos| / pdf");
+  std::uint64_t seed = 9000;
+  std::size_t successes = 0;
+  for (const DielectricCase& c : DielectricCases()) {
+    if (c.eta != 1.5f) continue;
+    for (const Opaque& surface : surfaces) {
+      for (const std::string suffix : {"", "_separable"}) {
+        std::mt19937_64 random(seed++);
+        const Column<double> u1 = UniformNumbers<double>(kSamples, random),
+                             u2 = UniformNumbers<double>(kSamples, random);
+        const auto sample = [&](const std::string& id, const Values& parameters) {
+          return RunAll<double>(id, kSamples, {}, c.wi(), u1, u2, c.distribution, parameters);
+        };
+        const std::vector<Column<double>> out =
+            sample(c.distribution.Model(surface.model, "sample" + suffix), surface.parameters);
+        const std::vector<Column<double>> dielectric =
+            sample(c.distribution.Dielectric("sample_reflection" + suffix), {{c.eta}});
+        const DirectionColumns<double> wo{out[0], out[1], out[2]};
+        const std::vector<Column<double>> value =
+            RunAll<double>(c.distribution.Model(surface.model, "eval_pdf" + suffix), kSamples, {}, c.wi(), wo,
+                           c.distribution, surface.parameters);
+        for (std::size_t i = 0; i < kSamples; ++i) {
+          const auto where = [&] {
+            return std::string(surface.model) + ' ' + c.Text() + " wo " + Text(wo[i]);
+          };
+          for (const std::size_t k : {0, 1, 2, 4, 5}) {
+            directions.AddRelative(out[k][i], dielectric[k][i], 1e-13, where);
+          }
+          if (out[5][i] == 0) continue;
+          ++successes;
+          const double cos_i = Dot(c.wi(), Normalized(c.wi() + wo[i]));
+          const double geometric = 1 + 1 / std::abs(wo.z[i]) + 1 / cos_i;
+          weights.AddRelative(value[0][i] / value[1][i], out[3][i], 1e-12 * geometric, where);
+        }
+      }
+    }
+  }
+  weights.Note(Text(", %zu samples", successes));
+  EXPECT_GT(successes, 100 * kSamples);
+}
+
 // The mean weight, failed samples counted with 0, estimates int f |cos| dwo.
 TEST(RoughDielectricSampler, MeanWeightIsTheDirectionalAlbedo) {
   constexpr std::size_t kSamples = 200000;

@@ -126,17 +126,21 @@ constexpr ScalarBound kScalarBounds[] = {
 // clang-format on
 
 // Of each family's quantities, by DielectricQuantity::What.
-constexpr ScalarBound kScalarDielectricBounds[kNumDielectricFamilies][4] = {
+constexpr ScalarBound kScalarModelBounds[kNumModelFamilies][4] = {
     {{"eval", 0.51, 16}, {"pdf", 0.51, 16}, {"eval_pdf", 0.51, 16}, {"sample", 2.5, 32768}},
     {{"eval", 6, 20}, {"pdf", 0.51, 20}, {"eval_pdf", 6, 20}, {"sample", 2.5, 32768}},
     {{"eval", 0.51, 16}, {"pdf", 0.51, 16}, {"eval_pdf", 0.51, 16}, {"sample", 2.5, 32768}}};
 
 constexpr ScalarBound FindBound(std::size_t kernel) {
-  constexpr std::size_t first_dielectric = kNumComponentKernels + kNumNormalKernels;
-  if (kernel >= first_dielectric) {
-    const std::size_t i = kernel - first_dielectric;
+  if (kernel >= kFirstReflectorKernel) {
+    const ReflectorKernelPlace place = PlaceOfReflectorKernel(kernel);
+    return kScalarModelBounds[static_cast<std::size_t>(place.normals)]
+                             [kReflectorQuantities[place.quantity].what];
+  }
+  if (kernel >= kFirstDielectricKernel) {
+    const std::size_t i = kernel - kFirstDielectricKernel;
     const DielectricQuantity& quantity = kDielectricQuantities[i % kNumDielectricQuantities];
-    return kScalarDielectricBounds[i / kNumDielectricQuantities][quantity.what];
+    return kScalarModelBounds[i / kNumDielectricQuantities][quantity.what];
   }
   const std::string_view id = kKernels[kernel].id;
   for (const ScalarBound& bound : kScalarBounds) {

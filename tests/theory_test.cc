@@ -821,6 +821,99 @@ TEST(RoughDielectric, LobesArePartsOfTheWholeAndEvalPdfIsBoth) {
   });
 }
 
+// What facets of an opaque surface are made of: a model's own parameters, and the kernel of their reflectance
+// with what it takes behind cos_i.
+struct OpaqueCase {
+  std::string_view model, reflectance;
+  Values parameters;
+  double index;  // n of a conductor, else 1
+
+  std::string Text() const {
+    std::string text(model);
+    for (const double p : parameters.list) text += microlane::Text(" %a", p);
+    return text;
+  }
+};
+
+// The mirror; silver, germanium, a weak absorber beyond its critical angle, glass; Schlick's plastic, gold's
+// red, black and white.
+std::vector<OpaqueCase> OpaqueCases() {
+  std::vector<OpaqueCase> cases = {{"rough_mirror", "", {{}}, 1}};
+  constexpr float kMetals[][2] = {{0.05f, 3.4f}, {5.6f, 0.4f}, {0.6f, 0.01f}, {1.5f, 0}, {0.66f, 0}};
+  for (const auto& metal : kMetals) {
+    cases.push_back({"rough_conductor", "fresnel.conductor", {{metal[0], metal[1]}}, metal[0]});
+  }
+  for (const float f0 : {0.04f, 0.95f, 0.0f, 1.0f}) {
+    cases.push_back({"rough_schlick", "fresnel.schlick", {{f0}}, 1});
+  }
+  return cases;
+}
+
+TEST(OpaqueSurface, ValueIsTheMirrorsTimesTheReflectanceAndSymmetricAndEvalPdfIsBoth) {
+  ForEachLaneType([](auto lane, Accuracy accuracy, const std::string& name) {
+    using T = decltype(lane);
+    const Mode mode{accuracy};
+    Tally products("f = F f of the mirror, " + name), fused("eval_pdf = eval and pdf_reflection, " + name);
+    Tally reciprocity("f(wi, wo) = f(wo, wi), " + name);
+    std::uint64_t seed = 5000;
+    for (const Distribution& distribution : ModelDistributions()) {
+      const Pairs all = ScatteredPairs(distribution, 1.5f, 1000, seed++);
+      Pairs pairs;
+      for (std::size_t i = 0; i < all.size(); ++i) {
+        if (!all.reflects[i]) continue;
+        pairs.wi.PushBack(all.wi[i]);
+        pairs.wo.PushBack(all.wo[i]);
+        pairs.m.PushBack(all.m[i]);
+        pairs.reflects.push_back(true);
+      }
+      const std::size_t n = pairs.size();
+      const DirectionColumns<T> wi = Rounded<T>(pairs.wi), wo = Rounded<T>(pairs.wo);
+      Column<double> cos_i;
+      for (std::size_t i = 0; i < n; ++i) cos_i.push_back(Dot(wi[i], Normalized(wi[i] + wo[i])));
+      for (const OpaqueCase& facets : OpaqueCases()) {
+        const double declared = 2 * DeclaredError<T>(distribution.Model(facets.model, "eval"), accuracy);
+        const Column<double> F = facets.reflectance.empty()
+                                     ? Column<double>(n, 1.0)
+                                     : RunOne<double>(facets.reflectance, n, {}, cos_i, facets.parameters);
+        for (const std::string suffix : {"", "_separable"}) {
+          const std::string id = distribution.Model(facets.model, "eval" + suffix);
+          const auto eval = [&](const DirectionColumns<T>& from, const DirectionColumns<T>& to) {
+            return RunOne<T>(id, n, mode, from, to, distribution, facets.parameters);
+          };
+          const Column<T> there = eval(wi, wo), back = eval(wo, wi);
+          const Column<T> mirror =
+              RunOne<T>(distribution.Model("rough_mirror", "eval" + suffix), n, mode, wi, wo, distribution);
+          const std::vector<Column<T>> both = RunAll<T>(distribution.Model(facets.model, "eval_pdf" + suffix),
+                                                        n, mode, wi, wo, distribution, facets.parameters);
+          const Column<T> pdf =
+              RunOne<T>(distribution.Dielectric("pdf_reflection"), n, mode, wi, wo, distribution, 1.5);
+          for (std::size_t i = 0; i < n; ++i) {
+            const auto where = [&] {
+              return facets.Text() + ' ' + PairText(distribution, pairs, i, facets.index);
+            };
+            fused.AddRelative(both[0][i], there[i], declared, where);
+            fused.AddRelative(both[1][i], pdf[i], declared, where);
+            if (std::min(there[i], back[i]) < std::numeric_limits<T>::min() * 0x1p20) continue;
+            double conditioning = PairConditioning(distribution, pairs, i, facets.index);
+            // The lengths of rounded directions are in the cosine, which Schlick's F sees by 5 (1 - f0) x^4 /
+            // F.
+            const double x = 1 - cos_i[i];
+            if (facets.model == "rough_schlick") {
+              conditioning += 5 * (1 - facets.parameters.list[0]) * std::pow(x, 4) / F[i];
+            }
+            if (!(kRounding<T> * conditioning < 1e-2)) continue;
+            const double in_double = 64 * conditioning * kRounding<double>;
+            const double of_lengths = 16 * conditioning * kRounding<T>;
+            products.AddRelative(F[i] * mirror[i], there[i], declared + in_double + of_lengths, where);
+            reciprocity.AddRelative(there[i] / std::abs(double{wo.z[i]}), back[i] / std::abs(double{wi.z[i]}),
+                                    declared + of_lengths, where);
+          }
+        }
+      }
+    }
+  });
+}
+
 // wi and m everywhere on the sphere of float-valued directions, made unit again in double.
 struct Facets {
   DirectionColumns<double> wi, m;

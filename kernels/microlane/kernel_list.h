@@ -38,6 +38,8 @@ enum class Metric {
   // |got - exact| / (ulp(exact) * kappa), where kappa >= 1 is the amplification of an input rounding by
   // the geometry: kappa = (1 + 1/|wi.m|) (1 + (wi.m)^2/|g^2|) (1 + 1/|wo.z| + w), g of Walter 2007 Eq. 22,
   // where w is 0 of a density, and of a weight (alpha_x + alpha_y)/(|wo.z| (1 + 2 Lambda(wo))), 0 for Phong.
+  // Of opaque surfaces the second factor is 1 of a density and of a mirror's weight, has the complex g of a
+  // conductor, and is 1 + |dF/dc|/F of Schlick's.
   // Of the density of a sampled visible normal: kDirection's kappa, or the same with alphas of 1 if that is
   // more, of Beckmann's plus T/(a + t); so too of the density of wo reflected about it. Of the weight of
   // that, with r = |(alpha_x wo.x, alpha_y wo.y, wo.z)|: 1 + kDirection's kappa times Lambda_o/(1 + Lambda_i
@@ -154,6 +156,12 @@ inline constexpr std::string_view kPdfNote =
     "Solid-angle density of wo for D cos sampling of normals (Walter 24, 38) and, with both lobes, choice by Fresnel.";
 inline constexpr std::string_view kEvalPdfNote = "eval and pdf in one call.";
 inline constexpr std::string_view kEvalPdfSeparableNote = "eval_separable and pdf in one call.";
+inline constexpr std::string_view kReflectorNote =
+    "f |cos(theta_o)| of light that facets reflect and nothing transmits; 0 for opposite sides. Height-correlated: G = 1/(1 + "
+    "Lambda_i + Lambda_o), Heitz 99.";
+inline constexpr std::string_view kReflectorSampleNote =
+    "m by D cos sampling, wi.m > 0 on wi's side, wo = 2 (wi.m) m - wi. weight = f |cos(theta_o)| / pdf in closed form (Walter 41). "
+    "Where wo is not on wi's side: lobe 0, and every output 0.";
 inline constexpr std::string_view kSampleNote =
     "wi.m > 0 on wi's side, else none; u3 < F reflects. Outside its hemisphere: lobe 0, and every output 0. "
     "weight = f |cos(theta_o)| / pdf in closed form (Walter 41).";
@@ -199,7 +207,7 @@ inline constexpr Kernel kComponentKernels[] = {
     {"masking.height_direction_correlated", "Lambda_i Lambda_o wix wiy wox woy", "G2", "Heitz 2014 Eq. 101", kDirectionNote, false, {1, 4, 1200, 8, 4}},
 };
 
-// Distributions of normals, by their places in kNormalFamilies and kDielectricFamilies.
+// Distributions of normals, by their places in kNormalFamilies and kModelFamilies.
 enum class Normals { kGgx, kBeckmann, kPhong };
 
 // Parameters of a distribution, by their places in kRoughnesses. All but the exponent are linear maps of the slopes of
@@ -296,11 +304,10 @@ inline constexpr std::size_t kNumRoughnesses = std::size(kRoughnesses);
 // One quantity of one distribution, with bounds for each kind of roughness that it takes; those of the others are 0.
 struct NormalRow {
   Normals normals;
-  std::string_view name;
   NormalQuantity::What what;
-  std::string_view source, note;
+  std::string_view name, source, note;
   Bounds bounds[kNumRoughnesses];
-  std::string_view own_inputs = "", own_outputs = "";  // of kOwn, whose bounds stand first
+  std::string_view own_inputs{}, own_outputs{};  // of kOwn, whose bounds stand first
 
   constexpr bool Takes(std::size_t roughness) const { return bounds[roughness].high > 0; }
 };
@@ -309,30 +316,30 @@ inline constexpr std::string_view kNormalFamilies[] = {"ggx", "beckmann", "phong
 
 // Columns of bounds: those of kRoughnesses.
 inline constexpr NormalRow kNormalRows[] = {
-    {Normals::kGgx, "D", NormalQuantity::kD, "Heitz 2014 Eq. 85; Walter 2007 Eq. 33", kStretch, {{1, 4, 2400, 8, 4}, {1, 4, 2400, 8, 3}, {1, 4, 4, 8, 600}, {1, 4, 4, 8, 600}}},
-    {Normals::kGgx, "Lambda", NormalQuantity::kLambda, "Heitz 2014 Eqs. 72, 86", kLambdaNote, {{1, 4, 1300, 8, 5}, {1, 4, 1300, 8, 5}, {1, 1, 1300, 1, 64}, {1, 1, 1, 1, 64}}},
-    {Normals::kGgx, "G1", NormalQuantity::kG1, "Walter 2007 Eq. 34, stretched", kG1Note, {{1, 4, 2048, 8, 3}, {1, 4, 2048, 8, 3}, {1, 4, 2048, 8, 40}, {1, 4, 2048, 8, 40}}},
-    {Normals::kGgx, "sample_normal", NormalQuantity::kSampleNormal, "Walter 2007 Eqs. 24, 35, 36, stretched", kSampleGgxNote, {{1, 4, 2400, 8, 15}, {1, 4, 2400, 8, 15}, {1, 1, 1, 1, 400}, {1, 1, 1, 1, 600}}},
-    {Normals::kGgx, "D_visible", NormalQuantity::kDVisible, "Heitz 2014 Eq. 16", kDVisibleNote, {{1, 4, 4000, 8, 8}, {1, 4, 4000, 8, 8}, {1, 4, 4000, 8, 600}, {1, 4, 4000, 8, 600}}},
-    {Normals::kGgx, "sample_visible_normal", NormalQuantity::kSampleVisible, "Dupuy and Benyoub 2023; Heitz 2014 Eq. 16", kSampleVisibleNote, {{1, 16, 3000, 24, 16}, {1, 16, 3000, 24, 16}, {1, 1, 1, 1, 600}, {1, 1, 1, 1, 600}}},
-    {Normals::kGgx, "sample_visible_normal_bounded", NormalQuantity::kSampleVisibleBounded, "Eto and Tokuyoshi 2023; Heitz 2014 Eq. 16", kSampleBoundedNote, {{1, 16, 4000, 24, 16}, {1, 16, 4000, 24, 16}}},
-    {Normals::kGgx, "sample_visible_reflection", NormalQuantity::kSampleReflection, "Dupuy and Benyoub 2023; Heitz 2014 Eqs. 16, 99; Walter 2007 Eqs. 14, 39", kSampleReflectionNote, {{1, 24, 2800, 32, 24}, {1, 24, 2800, 32, 24}}},
-    {Normals::kGgx, "sample_visible_reflection_bounded", NormalQuantity::kSampleReflectionBounded, "Eto and Tokuyoshi 2023; Heitz 2014 Eqs. 16, 99; Walter 2007 Eqs. 14, 39", kSampleReflectionBoundedNote, {{1, 24, 2800, 32, 24}, {1, 24, 2800, 32, 24}}},
+    {Normals::kGgx, NormalQuantity::kD, "D", "Heitz 2014 Eq. 85; Walter 2007 Eq. 33", kStretch, {{1, 4, 2400, 8, 4}, {1, 4, 2400, 8, 3}, {1, 4, 4, 8, 600}, {1, 4, 4, 8, 600}}},
+    {Normals::kGgx, NormalQuantity::kLambda, "Lambda", "Heitz 2014 Eqs. 72, 86", kLambdaNote, {{1, 4, 1300, 8, 5}, {1, 4, 1300, 8, 5}, {1, 1, 1300, 1, 64}, {1, 1, 1, 1, 64}}},
+    {Normals::kGgx, NormalQuantity::kG1, "G1", "Walter 2007 Eq. 34, stretched", kG1Note, {{1, 4, 2048, 8, 3}, {1, 4, 2048, 8, 3}, {1, 4, 2048, 8, 40}, {1, 4, 2048, 8, 40}}},
+    {Normals::kGgx, NormalQuantity::kSampleNormal, "sample_normal", "Walter 2007 Eqs. 24, 35, 36, stretched", kSampleGgxNote, {{1, 4, 2400, 8, 15}, {1, 4, 2400, 8, 15}, {1, 1, 1, 1, 400}, {1, 1, 1, 1, 600}}},
+    {Normals::kGgx, NormalQuantity::kDVisible, "D_visible", "Heitz 2014 Eq. 16", kDVisibleNote, {{1, 4, 4000, 8, 8}, {1, 4, 4000, 8, 8}, {1, 4, 4000, 8, 600}, {1, 4, 4000, 8, 600}}},
+    {Normals::kGgx, NormalQuantity::kSampleVisible, "sample_visible_normal", "Dupuy and Benyoub 2023; Heitz 2014 Eq. 16", kSampleVisibleNote, {{1, 16, 3000, 24, 16}, {1, 16, 3000, 24, 16}, {1, 1, 1, 1, 600}, {1, 1, 1, 1, 600}}},
+    {Normals::kGgx, NormalQuantity::kSampleVisibleBounded, "sample_visible_normal_bounded", "Eto and Tokuyoshi 2023; Heitz 2014 Eq. 16", kSampleBoundedNote, {{1, 16, 4000, 24, 16}, {1, 16, 4000, 24, 16}}},
+    {Normals::kGgx, NormalQuantity::kSampleReflection, "sample_visible_reflection", "Dupuy and Benyoub 2023; Heitz 2014 Eqs. 16, 99; Walter 2007 Eqs. 14, 39", kSampleReflectionNote, {{1, 24, 2800, 32, 24}, {1, 24, 2800, 32, 24}}},
+    {Normals::kGgx, NormalQuantity::kSampleReflectionBounded, "sample_visible_reflection_bounded", "Eto and Tokuyoshi 2023; Heitz 2014 Eqs. 16, 99; Walter 2007 Eqs. 14, 39", kSampleReflectionBoundedNote, {{1, 24, 2800, 32, 24}, {1, 24, 2800, 32, 24}}},
 
-    {Normals::kBeckmann, "D", NormalQuantity::kD, "Heitz 2014 Eq. 82; Walter 2007 Eq. 25", kStretchedExponent, {{1, 4, 2800, 8, 3000}, {1, 4, 2800, 8, 3000}, {1, 4, 200, 8, 8e4}, {1, 4, 200, 8, 8e4}}},
-    {Normals::kBeckmann, "Lambda", NormalQuantity::kLambda, "Heitz 2014 Eqs. 69, 83", kLambdaExponentNote, {{1, 4, 1700, 8, 2200}, {1, 4, 1700, 8, 2200}, {1, 1, 1700, 1, 12000}, {1, 1, 1, 1, 12000}}},
-    {Normals::kBeckmann, "G1", NormalQuantity::kG1, "Walter 2007 Eq. 26, stretched", kG1Note, {{1, 4, 2500, 8, 14}, {1, 4, 2500, 8, 14}, {1, 1, 2500, 1, 48}, {1, 1, 2500, 1, 48}}},
-    {Normals::kBeckmann, "D_visible", NormalQuantity::kDVisible, "Heitz 2014 Eq. 16", kDVisibleBeckmannNote, {{1, 4, 4000, 8, 3000}, {1, 4, 4000, 8, 3000}, {1, 4, 2800, 8, 8e4}, {1, 4, 2800, 8, 8e4}}},
-    {Normals::kBeckmann, "sample_visible_normal", NormalQuantity::kSampleVisible, "Heitz 2014 Eq. 16 by the inverse of its cumulative function", kSampleVisibleBeckmannNote, {{1, 20, 3300, 20, 20}, {1, 20, 3300, 20, 20}, {1, 1, 1, 1, 40}, {1, 1, 1, 1, 40}}},
-    {Normals::kBeckmann, "sample_visible_reflection", NormalQuantity::kSampleReflection, "Heitz 2014 Eqs. 16, 99; Walter 2007 Eqs. 14, 39", kSampleReflectionNote, {{1, 16, 2800, 20, 18}, {1, 16, 2800, 20, 18}}},
-    {Normals::kBeckmann, "G1_rational", NormalQuantity::kOwn, "Walter 2007 Eq. 27, clamped at 1", "The error bound is against Eq. 27; Eq. 27 itself is within 0.313% of Eq. 26.", {{1, 4, 2300, 8, 6}}, "vx vy vz mx my mz | alpha_x alpha_y", "G1"},
-    {Normals::kBeckmann, "sample_normal", NormalQuantity::kSampleNormal, "Walter 2007 Eqs. 24, 28, 29, stretched", kSampleBeckmannNote, {{1, 4, 2400, 8, 17}, {1, 4, 2400, 8, 17}, {1, 1, 1, 1, 400}, {1, 1, 1, 1, 400}}},
-    {Normals::kBeckmann, "sample_normal_widened", NormalQuantity::kOwn, "Walter 2007 section 5.3", "beckmann.sample_normal with both alphas times 1.2 - 0.2 sqrt(|cos_i|).", {{1, 4, 3000, 8, 17}}, "u1 u2 cos_i | alpha_x alpha_y", "mx my mz pdf"},
+    {Normals::kBeckmann, NormalQuantity::kD, "D", "Heitz 2014 Eq. 82; Walter 2007 Eq. 25", kStretchedExponent, {{1, 4, 2800, 8, 3000}, {1, 4, 2800, 8, 3000}, {1, 4, 200, 8, 8e4}, {1, 4, 200, 8, 8e4}}},
+    {Normals::kBeckmann, NormalQuantity::kLambda, "Lambda", "Heitz 2014 Eqs. 69, 83", kLambdaExponentNote, {{1, 4, 1700, 8, 2200}, {1, 4, 1700, 8, 2200}, {1, 1, 1700, 1, 12000}, {1, 1, 1, 1, 12000}}},
+    {Normals::kBeckmann, NormalQuantity::kG1, "G1", "Walter 2007 Eq. 26, stretched", kG1Note, {{1, 4, 2500, 8, 14}, {1, 4, 2500, 8, 14}, {1, 1, 2500, 1, 48}, {1, 1, 2500, 1, 48}}},
+    {Normals::kBeckmann, NormalQuantity::kDVisible, "D_visible", "Heitz 2014 Eq. 16", kDVisibleBeckmannNote, {{1, 4, 4000, 8, 3000}, {1, 4, 4000, 8, 3000}, {1, 4, 2800, 8, 8e4}, {1, 4, 2800, 8, 8e4}}},
+    {Normals::kBeckmann, NormalQuantity::kSampleVisible, "sample_visible_normal", "Heitz 2014 Eq. 16 by the inverse of its cumulative function", kSampleVisibleBeckmannNote, {{1, 20, 3300, 20, 20}, {1, 20, 3300, 20, 20}, {1, 1, 1, 1, 40}, {1, 1, 1, 1, 40}}},
+    {Normals::kBeckmann, NormalQuantity::kSampleReflection, "sample_visible_reflection", "Heitz 2014 Eqs. 16, 99; Walter 2007 Eqs. 14, 39", kSampleReflectionNote, {{1, 16, 2800, 20, 18}, {1, 16, 2800, 20, 18}}},
+    {Normals::kBeckmann, NormalQuantity::kOwn, "G1_rational", "Walter 2007 Eq. 27, clamped at 1", "The error bound is against Eq. 27; Eq. 27 itself is within 0.313% of Eq. 26.", {{1, 4, 2300, 8, 6}}, "vx vy vz mx my mz | alpha_x alpha_y", "G1"},
+    {Normals::kBeckmann, NormalQuantity::kSampleNormal, "sample_normal", "Walter 2007 Eqs. 24, 28, 29, stretched", kSampleBeckmannNote, {{1, 4, 2400, 8, 17}, {1, 4, 2400, 8, 17}, {1, 1, 1, 1, 400}, {1, 1, 1, 1, 400}}},
+    {Normals::kBeckmann, NormalQuantity::kOwn, "sample_normal_widened", "Walter 2007 section 5.3", "beckmann.sample_normal with both alphas times 1.2 - 0.2 sqrt(|cos_i|).", {{1, 4, 3000, 8, 17}}, "u1 u2 cos_i | alpha_x alpha_y", "mx my mz pdf"},
 
-    {Normals::kPhong, "exponent", NormalQuantity::kOwn, "Walter 2007, after Eq. 30: 2/alpha^2 - 2", "0 for alpha >= 1.", {{1, 4, 1200, 8, 1.5}}, "alpha", "exponent"},
-    {Normals::kPhong, "D", NormalQuantity::kD, "Walter 2007 Eq. 30", kPhongNote, {{}, {}, {}, {}, {1, 4, 128, 8, 2000}}},
-    {Normals::kPhong, "G1", NormalQuantity::kG1, "Walter 2007 Eq. 27 with a = sqrt(0.5 exponent + 1)/tan(theta_v), clamped at 1", kG1Note, {{}, {}, {}, {}, {1, 4, 2900, 8, 6}}},
-    {Normals::kPhong, "sample_normal", NormalQuantity::kSampleNormal, "Walter 2007 Eqs. 24, 31, 32", "cos(theta_m) = u1^(1/(exponent + 2)); pdf = D cos. Double lanes round the logarithm of the density once.", {{}, {}, {}, {}, {1, 4, 1200, 8, 128}}},
+    {Normals::kPhong, NormalQuantity::kOwn, "exponent", "Walter 2007, after Eq. 30: 2/alpha^2 - 2", "0 for alpha >= 1.", {{1, 4, 1200, 8, 1.5}}, "alpha", "exponent"},
+    {Normals::kPhong, NormalQuantity::kD, "D", "Walter 2007 Eq. 30", kPhongNote, {{}, {}, {}, {}, {1, 4, 128, 8, 2000}}},
+    {Normals::kPhong, NormalQuantity::kG1, "G1", "Walter 2007 Eq. 27 with a = sqrt(0.5 exponent + 1)/tan(theta_v), clamped at 1", kG1Note, {{}, {}, {}, {}, {1, 4, 2900, 8, 6}}},
+    {Normals::kPhong, NormalQuantity::kSampleNormal, "sample_normal", "Walter 2007 Eqs. 24, 31, 32", "cos(theta_m) = u1^(1/(exponent + 2)); pdf = D cos. Double lanes round the logarithm of the density once.", {{}, {}, {}, {}, {1, 4, 1200, 8, 128}}},
 };
 
 // What the rough dielectric gives over each distribution of normals.
@@ -368,12 +375,40 @@ inline constexpr DielectricQuantity kDielectricQuantities[] = {
     {"sample_transmission_separable", DielectricQuantity::kSample, false, true, true, "Walter 2007 Eqs. 23, 37, 38, 40, 41", kSampleLobeNote},
 };
 
-struct DielectricFamily {
-  std::string_view id;          // before the '.'
+// What a facet of an opaque surface reflects, by its place in kReflectors.
+enum class Reflector { kMirror, kConductor, kSchlick };
+
+struct ReflectorRow {
+  std::string_view id;          // of the family over GGX
+  std::string_view parameters;  // behind those of the distribution
+  std::string_view source;      // its reflectance
+};
+
+inline constexpr ReflectorRow kReflectors[] = {
+    {"rough_mirror", "", "F = 1"},
+    {"rough_conductor", " n kappa", "F as fresnel.conductor"},
+    {"rough_schlick", " f0", "F as fresnel.schlick"},
+};
+inline constexpr std::size_t kNumReflectors = std::size(kReflectors);
+
+// What opaque surfaces give over each distribution of normals. The density of wo is rough_dielectric's pdf_reflection.
+inline constexpr DielectricQuantity kReflectorQuantities[] = {
+    {"eval", DielectricQuantity::kEval, true, false, false, "Walter 2007 Eq. 20; Heitz 2014 Eq. 99", kReflectorNote},
+    {"eval_separable", DielectricQuantity::kEval, true, false, true, "Walter 2007 Eqs. 20, 23", kSeparableNote},
+    {"eval_pdf", DielectricQuantity::kEvalPdf, true, false, false, "Walter 2007 Eqs. 14, 20, 24, 38; Heitz 2014 Eq. 99", "eval and the density with which sample finds wo, in one call."},
+    {"eval_pdf_separable", DielectricQuantity::kEvalPdf, true, false, true, "Walter 2007 Eqs. 14, 20, 23, 24, 38", kEvalPdfSeparableNote},
+    {"sample", DielectricQuantity::kSample, true, false, false, "Walter 2007 Eqs. 37-39, 41; Heitz 2014 Eq. 99", kReflectorSampleNote},
+    {"sample_separable", DielectricQuantity::kSample, true, false, true, "Walter 2007 Eqs. 23, 37-39, 41", kReflectorSampleNote},
+};
+
+// A distribution of normals in the models over it.
+struct ModelFamily {
+  std::string_view suffix;      // of the models' ids, before the '.'
   std::string_view parameters;  // of the distribution
   std::string_view source;      // its equations
   Bounds value;                 // values and densities that transmit
   Bounds eval_reflection, pdf_reflection, sample;
+  Bounds reflector_value[kNumReflectors], reflector_sample[kNumReflectors];
 
   constexpr const Bounds& BoundsOf(const DielectricQuantity& q) const {
     return q.what == DielectricQuantity::kSample ? sample
@@ -385,19 +420,26 @@ struct DielectricFamily {
 
 // Values in double lanes: cosines and g^2 are left with a relative error of 2^-33 where they cancel, next to the critical
 // angle and where a facet is seen edge-on. Samples, fast: the normal is within 2^-13, which refraction magnifies.
-inline constexpr DielectricFamily kDielectricFamilies[] = {
-    {"rough_dielectric", "alpha_x alpha_y", "GGX: Walter 2007 Eqs. 33-36, stretched",
-     {1, 20, 6500, 24, 0x1p20}, {1, 18, 6500, 24, 0x1p14}, {1, 14, 2400, 20, 40}, {1, 24, 6500, 32, 17}},
-    {"rough_dielectric_beckmann", "alpha_x alpha_y", "Beckmann: Walter 2007 Eqs. 25, 26, 28, 29, stretched",
-     {1, 19, 6500, 24, 0x1p20}, {1, 18, 6500, 24, 0x1p14}, {1, 14, 2400, 20, 3500}, {1, 24, 6500, 32, 17}},
-    {"rough_dielectric_phong", "exponent", "Phong: Walter 2007 Eqs. 27, 30-32",
-     {1, 21, 6500, 24, 0x1p20}, {1, 20, 6500, 24, 0x1p14}, {1, 14, 2400, 20, 4200}, {1, 24, 4600, 32, 17}},
+inline constexpr ModelFamily kModelFamilies[] = {
+    {"", "alpha_x alpha_y", "GGX: Walter 2007 Eqs. 33-36, stretched",
+     {1, 20, 6500, 24, 0x1p20}, {1, 18, 6500, 24, 0x1p14}, {1, 14, 2400, 20, 40}, {1, 24, 6500, 32, 17},
+     {{1, 14, 2300, 20, 512}, {1, 21, 5000, 24, 0x1p14}, {1, 17, 5600, 22, 0x1p14}},
+     {{1, 14, 450, 16, 17}, {1, 14, 1000, 16, 17}, {1, 14, 450, 16, 17}}},
+    {"_beckmann", "alpha_x alpha_y", "Beckmann: Walter 2007 Eqs. 25, 26, 28, 29, stretched",
+     {1, 19, 6500, 24, 0x1p20}, {1, 18, 6500, 24, 0x1p14}, {1, 14, 2400, 20, 3500}, {1, 24, 6500, 32, 17},
+     {{1, 14, 3400, 20, 4096}, {1, 20, 5800, 24, 0x1p14}, {1, 17, 6500, 22, 0x1p14}},
+     {{1, 14, 450, 16, 17}, {1, 14, 1000, 16, 17}, {1, 14, 450, 16, 17}}},
+    {"_phong", "exponent", "Phong: Walter 2007 Eqs. 27, 30-32",
+     {1, 21, 6500, 24, 0x1p20}, {1, 20, 6500, 24, 0x1p14}, {1, 14, 2400, 20, 4200}, {1, 24, 4600, 32, 17},
+     {{1, 15, 4500, 20, 5000}, {1, 24, 7000, 24, 0x1p14}, {1, 17, 7000, 22, 0x1p14}},
+     {{1, 6, 2700, 8, 17}, {1, 6, 2700, 8, 17}, {1, 6, 2700, 8, 17}}},
 };
 // clang-format on
 
 inline constexpr std::size_t kNumComponentKernels = std::size(kComponentKernels);
 inline constexpr std::size_t kNumDielectricQuantities = std::size(kDielectricQuantities);
-inline constexpr std::size_t kNumDielectricFamilies = std::size(kDielectricFamilies);
+inline constexpr std::size_t kNumReflectorQuantities = std::size(kReflectorQuantities);
+inline constexpr std::size_t kNumModelFamilies = std::size(kModelFamilies);
 inline constexpr std::size_t kNumNormalRows = std::size(kNormalRows);
 
 constexpr std::size_t CountNormalKernels() {
@@ -409,16 +451,37 @@ constexpr std::size_t CountNormalKernels() {
 }
 inline constexpr std::size_t kNumNormalKernels = CountNormalKernels();
 
-// Component kernels, then distributions of normals, then rough dielectrics.
-inline constexpr std::size_t kNumKernels =
-    kNumComponentKernels + kNumNormalKernels + kNumDielectricFamilies * kNumDielectricQuantities;
+// Component kernels, then distributions of normals, then rough dielectrics, then opaque surfaces.
+inline constexpr std::size_t kFirstDielectricKernel = kNumComponentKernels + kNumNormalKernels;
+inline constexpr std::size_t kFirstReflectorKernel =
+    kFirstDielectricKernel + kNumModelFamilies * kNumDielectricQuantities;
+inline constexpr std::size_t kNumReflectorKernels =
+    kNumModelFamilies * kNumReflectors * kNumReflectorQuantities;
+inline constexpr std::size_t kNumKernels = kFirstReflectorKernel + kNumReflectorKernels;
 inline constexpr std::size_t kMaxInputs = 11;
 inline constexpr std::size_t kMaxOutputs = 6;
 
 // Index into kKernels of a quantity, itself an index into kDielectricQuantities.
 constexpr std::size_t DielectricKernel(Normals normals, std::size_t quantity) {
-  return kNumComponentKernels + kNumNormalKernels +
-         static_cast<std::size_t>(normals) * kNumDielectricQuantities + quantity;
+  return kFirstDielectricKernel + static_cast<std::size_t>(normals) * kNumDielectricQuantities + quantity;
+}
+
+// An opaque surface's kernel: its distribution of normals, reflectance and place in kReflectorQuantities.
+struct ReflectorKernelPlace {
+  Normals normals;
+  Reflector reflector;
+  std::size_t quantity;
+};
+constexpr std::size_t ReflectorKernel(const ReflectorKernelPlace& place) {
+  const std::size_t normals = static_cast<std::size_t>(place.normals),
+                    reflector = static_cast<std::size_t>(place.reflector);
+  return kFirstReflectorKernel + (normals * kNumReflectors + reflector) * kNumReflectorQuantities +
+         place.quantity;
+}
+constexpr ReflectorKernelPlace PlaceOfReflectorKernel(std::size_t kernel) {
+  const std::size_t i = kernel - kFirstReflectorKernel, family = i / kNumReflectorQuantities;
+  return {static_cast<Normals>(family / kNumReflectors), static_cast<Reflector>(family % kNumReflectors),
+          i % kNumReflectorQuantities};
 }
 
 // A kernel of a distribution of normals: its place in kNormalRows, and its kind of roughness.
@@ -452,6 +515,16 @@ constexpr std::size_t NormalKernel(Normals normals, NormalQuantity::What what, R
   return kNumKernels;
 }
 
+// Index into kReflectorQuantities, or their number if there is none.
+constexpr std::size_t FindReflectorQuantity(DielectricQuantity::What what, bool separable) {
+  std::size_t i = 0;
+  while (i < kNumReflectorQuantities &&
+         (kReflectorQuantities[i].what != what || kReflectorQuantities[i].separable != separable)) {
+    ++i;
+  }
+  return i;
+}
+
 // Index into kDielectricQuantities, or their number if there is none.
 constexpr std::size_t FindDielectricQuantity(DielectricQuantity::What what, bool reflects, bool transmits,
                                              bool separable) {
@@ -480,7 +553,7 @@ class JoinedText {
     for (const char c : part) text_[size_++] = c;
   }
 
-  char text_[128] = {};
+  char text_[160] = {};
   std::size_t size_ = 0;
 };
 
@@ -503,26 +576,42 @@ constexpr auto MakeNormalText() {
 }
 inline constexpr auto kNormalText = MakeNormalText();
 
-struct DielectricText {
+struct ModelText {
   JoinedText id, inputs, source;
 };
 
+// id: of the family over GGX; parameters: the model's own, behind the distribution's.
+constexpr ModelText MakeModelText(std::string_view id, std::string_view parameters, std::string_view source,
+                                  const ModelFamily& family, const DielectricQuantity& q) {
+  const std::string_view lanes = q.what != DielectricQuantity::kSample ? "wix wiy wiz wox woy woz"
+                                 : q.HasBothLobes()                    ? "wix wiy wiz u1 u2 u3"
+                                                                       : "wix wiy wiz u1 u2";
+  return {JoinedText(id, family.suffix, ".", q.name), JoinedText(lanes, " | ", family.parameters, parameters),
+          JoinedText(q.source, source, "; ", family.source)};
+}
+
 constexpr auto MakeDielectricText() {
-  std::array<std::array<DielectricText, kNumDielectricQuantities>, kNumDielectricFamilies> text{};
-  for (std::size_t f = 0; f < kNumDielectricFamilies; ++f) {
-    const DielectricFamily& family = kDielectricFamilies[f];
-    for (std::size_t i = 0; i < kNumDielectricQuantities; ++i) {
-      const DielectricQuantity& q = kDielectricQuantities[i];
-      const std::string_view lanes = q.what != DielectricQuantity::kSample ? "wix wiy wiz wox woy woz"
-                                     : q.HasBothLobes()                    ? "wix wiy wiz u1 u2 u3"
-                                                                           : "wix wiy wiz u1 u2";
-      text[f][i] = {JoinedText(family.id, ".", q.name), JoinedText(lanes, " | ", family.parameters, " eta"),
-                    JoinedText(q.source, "; ", family.source)};
-    }
+  std::array<ModelText, kNumModelFamilies * kNumDielectricQuantities> text{};
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    text[i] = MakeModelText("rough_dielectric", " eta", "", kModelFamilies[i / kNumDielectricQuantities],
+                            kDielectricQuantities[i % kNumDielectricQuantities]);
   }
   return text;
 }
 inline constexpr auto kDielectricText = MakeDielectricText();
+
+constexpr auto MakeReflectorText() {
+  std::array<ModelText, kNumReflectorKernels> text{};
+  for (std::size_t i = 0; i < kNumReflectorKernels; ++i) {
+    const ReflectorKernelPlace place = PlaceOfReflectorKernel(kFirstReflectorKernel + i);
+    const ReflectorRow& reflector = kReflectors[static_cast<std::size_t>(place.reflector)];
+    text[i] = MakeModelText(reflector.id, reflector.parameters, JoinedText("; ", reflector.source).view(),
+                            kModelFamilies[static_cast<std::size_t>(place.normals)],
+                            kReflectorQuantities[place.quantity]);
+  }
+  return text;
+}
+inline constexpr auto kReflectorText = MakeReflectorText();
 
 constexpr std::array<Kernel, kNumKernels> MakeKernels() {
   constexpr std::string_view outputs[] = {"f_cos", "pdf", "f_cos pdf", "wox woy woz weight pdf lobe"};
@@ -541,15 +630,24 @@ constexpr std::array<Kernel, kNumKernels> MakeKernels() {
                                          false,
                                          row.bounds[static_cast<std::size_t>(place.roughness)]};
   }
-  for (std::size_t f = 0; f < kNumDielectricFamilies; ++f) {
-    const DielectricFamily& family = kDielectricFamilies[f];
-    for (std::size_t i = 0; i < kNumDielectricQuantities; ++i) {
-      const DielectricQuantity& q = kDielectricQuantities[i];
-      const DielectricText& text = kDielectricText[f][i];
-      kernels[DielectricKernel(static_cast<Normals>(f), i)] = {
-          text.id.view(), text.inputs.view(),          outputs[q.what],   text.source.view(),
-          q.note,         q.HasValue() && q.transmits, family.BoundsOf(q)};
-    }
+  const auto add_model = [&](std::size_t kernel, const ModelText& text, const DielectricQuantity& q,
+                             bool has_transport, const Bounds& bounds) {
+    kernels[kernel] = {text.id.view(), text.inputs.view(), outputs[q.what], text.source.view(),
+                       q.note,         has_transport,      bounds};
+  };
+  for (std::size_t i = 0; i < kDielectricText.size(); ++i) {
+    const DielectricQuantity& q = kDielectricQuantities[i % kNumDielectricQuantities];
+    add_model(kFirstDielectricKernel + i, kDielectricText[i], q, q.HasValue() && q.transmits,
+              kModelFamilies[i / kNumDielectricQuantities].BoundsOf(q));
+  }
+  for (std::size_t i = 0; i < kNumReflectorKernels; ++i) {
+    const ReflectorKernelPlace place = PlaceOfReflectorKernel(kFirstReflectorKernel + i);
+    const ModelFamily& family = kModelFamilies[static_cast<std::size_t>(place.normals)];
+    const std::size_t reflector = static_cast<std::size_t>(place.reflector);
+    const DielectricQuantity& q = kReflectorQuantities[place.quantity];
+    add_model(kFirstReflectorKernel + i, kReflectorText[i], q, false,
+              q.what == DielectricQuantity::kSample ? family.reflector_sample[reflector]
+                                                    : family.reflector_value[reflector]);
   }
   return kernels;
 }

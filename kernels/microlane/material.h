@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "microlane/rough_dielectric.h"
+#include "microlane/rough_reflector.h"
 
 namespace microlane {
 
@@ -80,6 +81,46 @@ class PhongDielectricMaterial {
   double exponent_, eta_;
   std::string error_;
 };
+
+// An opaque rough surface, given with one value for each parameter.
+template <Normals kNormals, Reflector kReflector>
+class OpaqueMaterial {
+ public:
+  explicit OpaqueMaterial(const OpaqueSurface<kNormals, kReflector, double>& surface);
+
+  bool ok() const { return error_.empty(); }
+  // What is wrong with the parameters, else empty.
+  const std::string& error() const { return error_; }
+
+  // For batch calls. Of a material that is not ok, all are NaN, and so is what is computed from them.
+  template <class T>
+  OpaqueSurface<kNormals, kReflector, T> Surface() const {
+    if constexpr (kReflector == Reflector::kConductor) {
+      return {Roughness<T>(), {facets_[0], facets_[1]}};
+    } else if constexpr (kReflector == Reflector::kSchlick) {
+      return {Roughness<T>(), {facets_[0]}};
+    } else {
+      return {Roughness<T>(), {}};
+    }
+  }
+
+ private:
+  template <class T>
+  RoughnessOf<kNormals, T> Roughness() const {
+    if constexpr (kNormals == Normals::kPhong) {
+      return {roughness_[0]};
+    } else {
+      return {roughness_[0], roughness_[1]};
+    }
+  }
+
+  double roughness_[2] = {}, facets_[2] = {};
+  std::string error_;
+};
+
+using RoughMirrorMaterial = OpaqueMaterial<Normals::kGgx, Reflector::kMirror>;
+using RoughConductorMaterial = OpaqueMaterial<Normals::kGgx, Reflector::kConductor>;
+using RoughSchlickMaterial = OpaqueMaterial<Normals::kGgx, Reflector::kSchlick>;
 
 }  // namespace microlane
 

@@ -3,6 +3,7 @@
 #define MICROLANE_PACKETS_H_
 
 #include <cstddef>
+#include <type_traits>
 
 namespace microlane {
 
@@ -44,8 +45,10 @@ MutableDirections(T*, T*, T*) -> MutableDirections<T>;
 template <class T>
 class Parameter {
  public:
-  Parameter(T value) : value_(value) {}         // NOLINT(google-explicit-constructor)
-  Parameter(const T* lanes) : lanes_(lanes) {}  // NOLINT(google-explicit-constructor)
+  // Any number: 0 is no null pointer.
+  template <class Number, class = std::enable_if_t<std::is_arithmetic_v<Number>>>
+  Parameter(Number value) : value_(static_cast<T>(value)) {}  // NOLINT(google-explicit-constructor)
+  Parameter(const T* lanes) : lanes_(lanes) {}                // NOLINT(google-explicit-constructor)
   bool uniform() const { return lanes_ == nullptr; }
   const T* data() const { return uniform() ? &value_ : lanes_; }
 

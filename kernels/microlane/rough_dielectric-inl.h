@@ -13,7 +13,9 @@
 #define MICROLANE_ROUGH_DIELECTRIC_INL_H_
 #endif
 
+#include <cstddef>
 #include <limits>
+#include <type_traits>
 
 #include "microlane/half_vector-inl.h"
 
@@ -112,13 +114,14 @@ HWY_INLINE void UnitDots(D d, Vec<D>& a, Vec<D>& b, Vec<D>& w, Vec<D>& w_low, Ve
 #endif
 }
 
-// The terms of TermsOfDots, i.H, o.H, H.H and its square, of H = i + e o in float lanes to a rounding or two.
+// The terms of TermsOfDots, i.H, o.H, H.H and its square, of H = i + e o in float lanes to a rounding or two;
+// of reflection, s2_tail is what the rounding of s^2 took.
 // `ill` where more is lost: lengths not near 1, H near 0, a facet seen edge-on.
 template <Lobes kLobes, class D>
 HWY_INLINE void InterfaceTermsSplit(D d, Vec<D>& ih, Vec<D>& oh, Vec<D>& h2, Vec<D>& h4, Vec<D>& c2,
-                                    Vec<D>& s2, Vec<D>& g2, Vec<D>& c2_plus_g2, hn::Mask<D>& ill,
-                                    hn::Mask<D> transmits, Vec<D> ix, Vec<D> iy, Vec<D> iz, Vec<D> ox,
-                                    Vec<D> oy, Vec<D> oz, Vec<D> e, Vec<D> eta, Vec<D> k) {
+                                    Vec<D>& s2, Vec<D>& s2_tail, Vec<D>& g2, Vec<D>& c2_plus_g2,
+                                    hn::Mask<D>& ill, hn::Mask<D> transmits, Vec<D> ix, Vec<D> iy, Vec<D> iz,
+                                    Vec<D> ox, Vec<D> oy, Vec<D> oz, Vec<D> e, Vec<D> eta, Vec<D> k) {
   Vec<D> a, b, w, w_low;
   UnitDots(d, a, b, w, w_low, ix, iy, iz, ox, oy, oz);
   const Vec<D> half = Const(d, 0.5), one = Const(d, 1), two = Const(d, 2);
@@ -137,6 +140,7 @@ HWY_INLINE void InterfaceTermsSplit(D d, Vec<D>& ih, Vec<D>& oh, Vec<D>& h2, Vec
     ih = hn::Sub(h2, oh);
     c2 = c2r;
     s2 = s2r;
+    s2_tail = hn::Sub(hn::Sub(s2_high, s2r), low);
     g2 = g2r;
     c2_plus_g2 = sum_r;
   } else {
@@ -173,11 +177,12 @@ HWY_INLINE void AddProduct(D d, Vec<D>& a, Vec<D>& a_tail, Vec<D> x, Vec<D> h, V
 }
 
 // InterfaceTerms to twice the working precision, of H = scale (i + e o): at the critical angle, where g^2 may
-// have nothing left of either term, and where a facet is seen edge-on. Out of line: few lanes need it.
+// have nothing left of either term, where a facet is seen edge-on, and s^2 where i and o nearly agree. Out of
+// line: few lanes need it.
 template <class D>
-HWY_NOINLINE void InterfaceTermsTwice(D d, Vec<D>& ih, Vec<D>& oh, Vec<D>& h2, Vec<D>& g2, Vec<D> ix,
-                                      Vec<D> iy, Vec<D> iz, Vec<D> ox, Vec<D> oy, Vec<D> oz, Vec<D> e,
-                                      Vec<D> eta, Vec<D> scale) {
+HWY_NOINLINE void InterfaceTermsTwice(D d, Vec<D>& ih, Vec<D>& oh, Vec<D>& h2, Vec<D>& s2, Vec<D>& g2,
+                                      Vec<D> ix, Vec<D> iy, Vec<D> iz, Vec<D> ox, Vec<D> oy, Vec<D> oz,
+                                      Vec<D> e, Vec<D> eta, Vec<D> scale) {
   const Vec<D> zero = hn::Zero(d);
   Vec<D> ih_tail = zero, oh_tail = zero, h2_tail = zero;
   ih = oh = h2 = zero;
@@ -203,9 +208,11 @@ HWY_NOINLINE void InterfaceTermsTwice(D d, Vec<D>& ih, Vec<D>& oh, Vec<D>& h2, V
   TwoProduct(d, k, h2, m, m_tail);
   TwoProduct(d, i1, i1, q, q_tail);
   TwoSum(q, m, s, s_tail);
-  const Vec<D> tail = hn::Add(hn::MulAdd(k, h2_tail, hn::MulAdd(k_tail, h2, m_tail)),
-                              hn::MulAdd(hn::Add(i1, i1), i1_tail, q_tail));
+  const Vec<D> square_tail = hn::MulAdd(hn::Add(i1, i1), i1_tail, q_tail);
+  const Vec<D> tail = hn::Add(hn::MulAdd(k, h2_tail, hn::MulAdd(k_tail, h2, m_tail)), square_tail);
   g2 = hn::Add(s, hn::Add(s_tail, tail));
+  TwoSum(h2, hn::Neg(q), s, s_tail);
+  s2 = hn::Add(s, hn::Add(s_tail, hn::Sub(h2_tail, square_tail)));
   ih = i1;
   oh = hn::Add(oh, oh_tail);
   h2 = hn::Add(h2, h2_tail);
@@ -223,16 +230,35 @@ HWY_INLINE V MaskingDenominator(V zi, V mu_i, V zo, V mu_o) {
 template <JointMasking kG>
 constexpr double kMaskingFactor = kG == JointMasking::kHeightCorrelated ? 2.0 : 4.0;
 
+// What facets are: an interface between dielectrics, or what opaque surfaces have (rough_reflector-inl.h).
+// q0 and q1 are its parameters.
+struct DielectricInterface {
+  static constexpr std::size_t kParameters = 1;  // eta
+  static constexpr bool kReflectsAll = false;    // F = 1
+  static constexpr bool kHasG = true;            // F depends on g^2 = q0^2 - 1 + c^2
+};
+
 // NOLINTBEGIN(misc-const-correctness): what one instantiation leaves alone, another assigns.
-// One pass. In float lanes `hard` marks the lanes that double lanes must do: some product may have
-// underflowed, or cancellation has taken too much.
-template <class Dist, Lobes kLobes, JointMasking kG, bool kValue, bool kPdf, Accuracy A, class D, class... P>
-HWY_INLINE void RoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& value, Vec<D>& pdf, hn::Mask<D>& hard,
-                                    Vec<D> ix, Vec<D> iy, Vec<D> iz, Vec<D> ox, Vec<D> oy, Vec<D> oz,
-                                    Vec<D> eta, P... p) {
+// c^2, s^2 and what the rounding of s^2 took, times H.H in double lanes, for whoever adds facets of its own.
+template <class D>
+struct FacetTerms {
+  Vec<D>&c2, &s2, &s2_tail;
+};
+
+// One pass, of the lobes of Interface. In float lanes `hard` marks the lanes that double lanes must do: some
+// product may have underflowed, or cancellation has taken too much.
+template <class Dist, class Interface, Lobes kLobes, JointMasking kG, bool kValue, bool kPdf, Accuracy A,
+          class D, class... P>
+HWY_INLINE void RoughSurfacePass(D d, hn::Mask<D> radiance, Vec<D>& value, Vec<D>& pdf, hn::Mask<D>& hard,
+                                 const FacetTerms<D>& terms, Vec<D> ix, Vec<D> iy, Vec<D> iz, Vec<D> ox,
+                                 Vec<D> oy, Vec<D> oz, Vec<D> q0, Vec<D> q1, P... p) {
+  constexpr bool kDielectric = std::is_same_v<Interface, DielectricInterface>;
+  static_assert(kDielectric || kLobes == Lobes::kReflection, "opaque surfaces reflect alone");
   constexpr bool kReflects = kLobes != Lobes::kTransmission, kTransmits = kLobes != Lobes::kReflection;
   constexpr bool kWide = !kIsFloat<D>, kFast = A == Accuracy::kFast;
-  constexpr bool kNeedsFresnel = kValue || kLobes == Lobes::kBoth, kNeedsCosines = kTransmits || kPdf;
+  constexpr bool kNeedsFresnel = !Interface::kReflectsAll && (kValue || kLobes == Lobes::kBoth);
+  constexpr bool kNeedsG = kNeedsFresnel && Interface::kHasG, kNeedsCosines = kTransmits || kPdf;
+  const Vec<D> eta = q0;
   const Vec<D> zero = hn::Zero(d), one = Const(d, 1);
   // i to the upper side.
   oz = FlipSign(d, oz, iz);
@@ -268,7 +294,9 @@ HWY_INLINE void RoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& value, Ve
   // transmission.
   constexpr Lobes kScaled = kWide ? Lobes::kTransmission : kLobes;
   const Vec<D> k = EtaSquaredMinus1(d, eta);
-  Vec<D> ih, oh, h2, h4, c2, s2, g2, c2_plus_g2 = zero, log_high = zero, log_low = zero;
+  Vec<D> ih, oh, h2, h4, g2, c2_plus_g2 = zero, log_high = zero, log_low = zero;
+  Vec<D>&c2 = terms.c2, &s2 = terms.s2, &s2_tail = terms.s2_tail;
+  s2_tail = zero;
   if constexpr (kWide || kFast) {
     ih = Dot(ix, iy, iz, hx, hy, hz);
     h2 = Dot(hx, hy, hz, hx, hy, hz);
@@ -278,25 +306,29 @@ HWY_INLINE void RoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& value, Ve
     if constexpr (kWide) {
       // F depends on the dots by 4/g times their errors, T also on the relative errors of i.H, o.H and g.
       auto ill = hn::MaskFromVec(zero);
-      if constexpr (kNeedsFresnel) ill = hn::Lt(hn::Abs(g2), hn::Mul(h2, Const(d, 0x1p-18)));
+      const Vec<D> little = hn::Mul(h2, Const(d, kDielectric ? 0x1p-18 : 0x1p-8));
+      if constexpr (kNeedsG) ill = hn::Lt(hn::Abs(g2), little);
       if constexpr (kNeedsCosines) {
         const Vec<D> least = hn::Min(c2, hn::Mul(oh, oh));
         ill = hn::Or(ill, hn::Lt(least, hn::Mul(h2, Const(d, 0x1p-40))));
       }
+      if constexpr (kNeedsFresnel && !Interface::kHasG) {
+        ill = hn::Or(ill, hn::Lt(s2, little));
+      }
       if (HWY_UNLIKELY(!hn::AllFalse(d, ill))) {
-        Vec<D> ih_, oh_, h2_, g2_;
-        InterfaceTermsTwice(d, ih_, oh_, h2_, g2_, ix, iy, iz, ox, oy, oz, e, eta, scale);
+        Vec<D> ih_, oh_, h2_, s2_, g2_;
+        InterfaceTermsTwice(d, ih_, oh_, h2_, s2_, g2_, ix, iy, iz, ox, oy, oz, e, eta, scale);
         ih = hn::IfThenElse(ill, ih_, ih);
         oh = hn::IfThenElse(ill, oh_, oh);
         h2 = hn::IfThenElse(ill, h2_, h2);
         g2 = hn::IfThenElse(ill, g2_, g2);
         c2 = hn::Mul(ih, ih);
-        s2 = hn::NegMulAdd(ih, ih, h2);
+        s2 = kDielectric ? hn::NegMulAdd(ih, ih, h2) : hn::IfThenElse(ill, s2_, s2);
       }
     }
   } else {
-    InterfaceTermsSplit<kLobes>(d, ih, oh, h2, h4, c2, s2, g2, c2_plus_g2, hard, transmits, ix, iy, iz, ox,
-                                oy, oz, e, eta, k);
+    InterfaceTermsSplit<kLobes>(d, ih, oh, h2, h4, c2, s2, s2_tail, g2, c2_plus_g2, hard, transmits, ix, iy,
+                                iz, ox, oy, oz, e, eta, k);
   }
   if constexpr (!kSplit) h4 = hn::Mul(h2, h2);
   const Vec<D> norm = OfLobe<kScaled>(transmits, h2, one), norm2 = OfLobe<kScaled>(transmits, h4, one);
@@ -308,7 +340,7 @@ HWY_INLINE void RoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& value, Ve
       hard = hn::Or(hard, hn::Lt(cos2, hn::Mul(h2, Const(d, 0x1p-18))));
     }
   }
-  if constexpr (!kWide && kNeedsFresnel) {
+  if constexpr (!kWide && kNeedsFresnel && kDielectric) {
     // The error of g^2 reaches F divided by c g, T divided by g^2.
     constexpr double kLeast = kFast ? 0x1p-12 : 0x1p-19;
     hard = hn::Or(hard, hn::Lt(hn::Abs(hn::Mul(c2, g2)), hn::Mul(norm2, Const(d, kLeast))));
@@ -346,11 +378,13 @@ HWY_INLINE void RoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& value, Ve
                                          p...);
   }
 
-  // Fresnel, from squares times H.H, with N = p^2 + s^4 and M^2 = N + 2 p s^2: an error of p or N leaves the
-  // quotient of the two at half its size or less.
-  Vec<D> a = one, m2 = one, n = one, twice_p = one;
+  // F = fresnel / (A M)^2. Of a dielectric from squares times H.H, with N = p^2 + s^4 and M^2 = N + 2 p s^2:
+  // an error of p or N leaves the quotient of the two at half its size or less.
+  Vec<D> a = one, m2 = one, n = one, twice_p = one, fresnel = one;
   const Vec<D> eta2 = hn::Mul(eta, eta);
-  if constexpr (kNeedsFresnel) {
+  if constexpr (kNeedsFresnel && !kDielectric) {
+    Interface::template Reflectance<A>(d, fresnel, a, m2, hard, c2, s2, s2_tail, g2, norm, q0, q1);
+  } else if constexpr (kNeedsFresnel) {
     g2 = hn::Max(kFast ? Const(d, 1e-25) : zero, g2);
     const Vec<D> root = SqrtOfPositive<A>(d, hn::Mul(c2, g2));
     twice_p = hn::Add(root, root);
@@ -378,13 +412,14 @@ HWY_INLINE void RoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& value, Ve
   const Vec<D> scaled_a = hn::Mul(a, Const(d, kScale)), ad = hn::Mul(density, scaled_a);
   Vec<D> last_ad = ad;
   // Takes up what both factors have lost.
-  if constexpr (kSplit) last_ad = hn::MulAdd(Const(d, 2), FusedMulSub(d, density, scaled_a, ad), ad);
+  if constexpr (kSplit && kNeedsFresnel)
+    last_ad = hn::MulAdd(Const(d, 2), FusedMulSub(d, density, scaled_a, ad), ad);
   Vec<D> ad2 = hn::Mul(ad, last_ad);
   if constexpr (Dist::kDensityOfCosine)
     ad2 = hn::Mul(ad2, kCancels ? OfLobe<kLobes>(transmits, h4, one) : h4);
   const Vec<D> denominator = hn::Mul(hn::Mul(ad2, m2), masking);
-  Vec<D> fresnel = one;  // F or T (both lobes: that of the lane), times A^2 M^2
-  if constexpr (kNeedsFresnel) {
+  // Of a dielectric F or T (both lobes: that of the lane), times A^2 M^2.
+  if constexpr (kNeedsFresnel && kDielectric) {
     Vec<D> f = one, t = one;
     if constexpr (kReflects) {
       const Vec<D> kn = hn::Min(hn::Abs(hn::Mul(k, norm)), a);
@@ -403,7 +438,9 @@ HWY_INLINE void RoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& value, Ve
   if constexpr (!kWide) {
     // Factors whose products could leave the range. F A^2 M^2 also bounds H.H (for A M <= 2^11 H.H^2), so
     // that rounding has not changed the sign of i.H or o.H, which are H.H/2 for unit vectors.
-    Vec<D> low = hn::Min(ws, kNeedsFresnel && kReflects && !kTransmits ? fresnel : hn::Mul(h2, h4));
+    constexpr bool kHasReflectance = kNeedsFresnel && !kTransmits;
+    Vec<D> low = hn::Min(ws, kHasReflectance && kDielectric ? fresnel : hn::Mul(h2, h4));
+    if constexpr (kHasReflectance && !kDielectric) low = hn::Min(low, fresnel);
     if constexpr (kValue) low = hn::Min(low, masking);
     hard =
         hn::Or(hard, hn::Or(hn::Lt(low, Const(d, 0x1p-42)), OutOfRange(d, denominator, 0x1p-70f, 0x1p120f)));
@@ -450,6 +487,7 @@ HWY_INLINE void RoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& value, Ve
       x = hn::Mul(x, hn::Mul(fresnel, hn::IfThenElse(transmits, eta2, one)));
     } else {
       invalid = hn::Or(invalid, transmits);
+      if constexpr (kNeedsFresnel) x = hn::Mul(x, hn::Mul(hn::Mul(a, a), m2));
     }
     x = kValue ? hn::Mul(hn::Mul(x, masking), r) : Div<A>(d, x, denominator);
     x = hn::Mul(hn::Mul(x, kWide ? hn::Mul(oh, scale) : oh), kWide ? hn::Mul(hz, scale) : hz);
@@ -457,48 +495,62 @@ HWY_INLINE void RoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& value, Ve
     pdf = ZeroIf(invalid, x);
   }
 }
-// NOLINTEND(misc-const-correctness)
 
-// RoughDielectricPass in double lanes; `radiance` as a number, 1 or 0.
-template <class Dist, Lobes kLobes, JointMasking kG, bool kValue, bool kPdf>
-struct RoughDielectricOp {
+// RoughSurfacePass in double lanes; `radiance` as a number, 1 or 0.
+template <class Dist, class Interface, Lobes kLobes, JointMasking kG, bool kValue, bool kPdf>
+struct RoughSurfaceOp {
   template <class DD, class... In>
   static HWY_INLINE void Run(DD dd, Vec<DD>& value, Vec<DD>& pdf, Vec<DD> radiance, In... in) {
     hn::Mask<DD> none = hn::MaskFromVec(hn::Zero(dd));
+    Vec<DD> c2, s2, s2_tail;
     value = pdf = hn::Zero(dd);
-    RoughDielectricPass<Dist, kLobes, kG, kValue, kPdf, Accuracy::kStandard>(
-        dd, hn::Gt(radiance, hn::Zero(dd)), value, pdf, none, in...);
+    RoughSurfacePass<Dist, Interface, kLobes, kG, kValue, kPdf, Accuracy::kStandard>(
+        dd, hn::Gt(radiance, hn::Zero(dd)), value, pdf, none, FacetTerms<DD>{c2, s2, s2_tail}, in...);
   }
 };
 
 // Out of line: few lanes need it.
-template <class Dist, Lobes kLobes, JointMasking kG, bool kValue, bool kPdf, class D, class... In>
-HWY_NOINLINE void RoughDielectricInDouble(D d, hn::Mask<D> radiance, Vec<D>& value, Vec<D>& pdf, In... in) {
-  InDouble2<RoughDielectricOp<Dist, kLobes, kG, kValue, kPdf>>(
+template <class Dist, class Interface, Lobes kLobes, JointMasking kG, bool kValue, bool kPdf, class D,
+          class... In>
+HWY_NOINLINE void RoughSurfaceInDouble(D d, hn::Mask<D> radiance, Vec<D>& value, Vec<D>& pdf, In... in) {
+  InDouble2<RoughSurfaceOp<Dist, Interface, kLobes, kG, kValue, kPdf>>(
       d, value, pdf, hn::IfThenElseZero(radiance, Const(d, 1)), in...);
 }
 
-// f |cos o| into `value` if kValue, the density of o into `pdf` if kPdf. `radiance`: mask of
-// Transport::kRadiance. in: ix, iy, iz, ox, oy, oz, eta, then the distribution's parameters.
-template <class Dist, Lobes kLobes, JointMasking kG, bool kValue, bool kPdf, Accuracy A, class D, class... In>
-HWY_INLINE void RoughDielectric(D d, hn::Mask<D> radiance, Vec<D>& value, Vec<D>& pdf, In... in) {
+// RoughSurfacePass, then what it found hard in double lanes. in: ix, iy, iz, ox, oy, oz, both parameters of
+// the interface, then the distribution's.
+template <class Dist, class Interface, Lobes kLobes, JointMasking kG, bool kValue, bool kPdf, Accuracy A,
+          class D, class... In>
+HWY_INLINE void RoughSurface(D d, hn::Mask<D> radiance, Vec<D>& value, Vec<D>& pdf, In... in) {
   hn::Mask<D> hard = hn::MaskFromVec(hn::Zero(d));
-  RoughDielectricPass<Dist, kLobes, kG, kValue, kPdf, A>(d, radiance, value, pdf, hard, in...);
+  Vec<D> c2, s2, s2_tail;
+  RoughSurfacePass<Dist, Interface, kLobes, kG, kValue, kPdf, A>(d, radiance, value, pdf, hard,
+                                                                 FacetTerms<D>{c2, s2, s2_tail}, in...);
   if (kIsFloat<D> && HWY_UNLIKELY(!hn::AllFalse(d, hard))) {
     Vec<D> hard_value, hard_pdf;
-    RoughDielectricInDouble<Dist, kLobes, kG, kValue, kPdf>(d, radiance, hard_value, hard_pdf, in...);
+    RoughSurfaceInDouble<Dist, Interface, kLobes, kG, kValue, kPdf>(d, radiance, hard_value, hard_pdf, in...);
     if constexpr (kValue) value = hn::IfThenElse(hard, hard_value, value);
     if constexpr (kPdf) pdf = hn::IfThenElse(hard, hard_pdf, pdf);
   }
 }
 
-// One pass of sampling. `hard` as in RoughDielectricPass.
-template <class Dist, Lobes kLobes, JointMasking kG, Accuracy A, class D, class... P>
-HWY_INLINE void SampleRoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& ox, Vec<D>& oy, Vec<D>& oz,
-                                          Vec<D>& weight, Vec<D>& pdf, Vec<D>& lobe, hn::Mask<D>& hard,
-                                          Vec<D> ix, Vec<D> iy, Vec<D> iz_signed, Vec<D> u1, Vec<D> u2,
-                                          Vec<D> u3, Vec<D> eta, P... p) {
-  constexpr bool kWide = !kIsFloat<D>;
+// f |cos o| into `value` if kValue, the density of o into `pdf` if kPdf. `radiance`: mask of
+// Transport::kRadiance. p: the distribution's parameters.
+template <class Dist, Lobes kLobes, JointMasking kG, bool kValue, bool kPdf, Accuracy A, class D, class... P>
+HWY_INLINE void RoughDielectric(D d, hn::Mask<D> radiance, Vec<D>& value, Vec<D>& pdf, Vec<D> ix, Vec<D> iy,
+                                Vec<D> iz, Vec<D> ox, Vec<D> oy, Vec<D> oz, Vec<D> eta, P... p) {
+  RoughSurface<Dist, DielectricInterface, kLobes, kG, kValue, kPdf, A>(d, radiance, value, pdf, ix, iy, iz,
+                                                                       ox, oy, oz, eta, hn::Zero(d), p...);
+}
+
+// One pass of sampling. `hard` as in RoughSurfacePass.
+template <class Dist, class Interface, Lobes kLobes, JointMasking kG, Accuracy A, class D, class... P>
+HWY_INLINE void SampleRoughSurfacePass(D d, hn::Mask<D> radiance, Vec<D>& ox, Vec<D>& oy, Vec<D>& oz,
+                                       Vec<D>& weight, Vec<D>& pdf, Vec<D>& lobe, hn::Mask<D>& hard,
+                                       Vec<D> ix, Vec<D> iy, Vec<D> iz_signed, Vec<D> u1, Vec<D> u2,
+                                       Vec<D> u3, Vec<D> q0, Vec<D> q1, P... p) {
+  constexpr bool kWide = !kIsFloat<D>, kDielectric = std::is_same_v<Interface, DielectricInterface>;
+  static_assert(kDielectric || kLobes == Lobes::kReflection, "opaque surfaces reflect alone");
   const Vec<D> zero = hn::Zero(d), one = Const(d, 1);
   const Vec<D> iz = hn::Abs(iz_signed);
   Vec<D> mx, my, mz, pdf_m;
@@ -507,9 +559,11 @@ HWY_INLINE void SampleRoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& ox,
   mx = FlipSign(d, mx, iz_signed);
   my = FlipSign(d, my, iz_signed);
   const Vec<D> c = Dot(ix, iy, iz, mx, my, mz);
-  const Vec<D> eta2 = hn::Mul(eta, eta), k = EtaSquaredMinus1(d, eta);
+  const Vec<D> eta = q0, eta2 = hn::Mul(eta, eta), k = EtaSquaredMinus1(d, eta);
   Vec<D> g2 = hn::MulAdd(c, c, k);
-  if constexpr (!kWide) hard = hn::Lt(hn::Min(hn::Abs(g2), hn::Abs(c)), Const(d, 0x1p-12));
+  if constexpr (!kWide) {
+    hard = hn::Lt(kDielectric ? hn::Min(hn::Abs(g2), hn::Abs(c)) : hn::Abs(c), Const(d, 0x1p-12));
+  }
   // A density of u1 near 0 may be subnormal.
   if constexpr (!kWide && Dist::kDensityOfCosine) hard = hn::Or(hard, hn::Lt(pdf_m, Const(d, 0x1p-100)));
   g2 = hn::IfThenElse(hn::Lt(g2, zero), zero, g2);
@@ -533,7 +587,13 @@ HWY_INLINE void SampleRoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& ox,
       hn::Mul(hn::Mul(hn::Mul(hn::Add(root, root), a), hn::MulAdd(eta, eta, hn::Mul(m, m))), hn::Mul(r, r));
 
   const auto transmits = hn::Ge(u3, reflectance);
-  const Vec<D> share = OfLobe<kLobes>(transmits, transmittance, reflectance);
+  Vec<D> share = one;
+  if constexpr (kDielectric) {
+    share = OfLobe<kLobes>(transmits, transmittance, reflectance);
+  } else if constexpr (!Interface::kReflectsAll) {
+    share = Interface::template ReflectanceOfCosine<A>(d, c, q0, q1);
+    if constexpr (!kWide) hard = hn::Or(hard, hn::Lt(share, Const(d, 0x1p-100)));
+  }
   // o = s m - t i: s = 2 c, t = 1, or s = (c - g)/eta = -(eta^2 - 1)/(eta (c + g)), t = 1/eta.
   const Vec<D> s = OfLobe<kLobes>(transmits, hn::Neg(hn::Mul(k, r_eta)), hn::Add(c, c));
   const Vec<D> t = OfLobe<kLobes>(transmits, hn::Mul(gc, r_eta), one);
@@ -582,38 +642,40 @@ HWY_INLINE void SampleRoughDielectricPass(D d, hn::Mask<D> radiance, Vec<D>& ox,
   oz = ZeroIf(invalid, FlipSign(d, oz, iz_signed));
   lobe = ZeroIf(invalid, OfLobe<kLobes>(transmits, Const(d, 2), one));
 }
+// NOLINTEND(misc-const-correctness)
 
-// SampleRoughDielectricPass in double lanes; `radiance` as a number, 1 or 0.
-template <class Dist, Lobes kLobes, JointMasking kG>
-struct SampleRoughDielectricOp {
+// SampleRoughSurfacePass in double lanes; `radiance` as a number, 1 or 0.
+template <class Dist, class Interface, Lobes kLobes, JointMasking kG>
+struct SampleRoughSurfaceOp {
   template <class DD, class... In>
   static HWY_INLINE void Run(DD dd, Vec<DD>& ox, Vec<DD>& oy, Vec<DD>& oz, Vec<DD>& weight, Vec<DD>& pdf,
                              Vec<DD>& lobe, Vec<DD> radiance, In... in) {
     hn::Mask<DD> none = hn::MaskFromVec(hn::Zero(dd));
-    SampleRoughDielectricPass<Dist, kLobes, kG, Accuracy::kStandard>(dd, hn::Gt(radiance, hn::Zero(dd)), ox,
-                                                                     oy, oz, weight, pdf, lobe, none, in...);
+    SampleRoughSurfacePass<Dist, Interface, kLobes, kG, Accuracy::kStandard>(
+        dd, hn::Gt(radiance, hn::Zero(dd)), ox, oy, oz, weight, pdf, lobe, none, in...);
   }
 };
 
 // Out of line: few lanes need it.
-template <class Dist, Lobes kLobes, JointMasking kG, class D, class... In>
-HWY_NOINLINE void SampleRoughDielectricInDouble(D d, hn::Mask<D> radiance, Vec<D>& ox, Vec<D>& oy, Vec<D>& oz,
-                                                Vec<D>& weight, Vec<D>& pdf, Vec<D>& lobe, In... in) {
-  InDouble6<SampleRoughDielectricOp<Dist, kLobes, kG>>(d, ox, oy, oz, weight, pdf, lobe,
-                                                       hn::IfThenElseZero(radiance, Const(d, 1)), in...);
+template <class Dist, class Interface, Lobes kLobes, JointMasking kG, class D, class... In>
+HWY_NOINLINE void SampleRoughSurfaceInDouble(D d, hn::Mask<D> radiance, Vec<D>& ox, Vec<D>& oy, Vec<D>& oz,
+                                             Vec<D>& weight, Vec<D>& pdf, Vec<D>& lobe, In... in) {
+  InDouble6<SampleRoughSurfaceOp<Dist, Interface, kLobes, kG>>(
+      d, ox, oy, oz, weight, pdf, lobe, hn::IfThenElseZero(radiance, Const(d, 1)), in...);
 }
 
-// Walter 2007 section 5.3: m by Dist's D cos sampling, o by Eq. 39 or 40, the weight by Eq. 41. With both
-// lobes u3 chooses by Fresnel, else it has no effect and the weight carries F or 1 - F. in: ix, iy, iz, u1,
-// u2, u3, eta, then the distribution's parameters.
-template <class Dist, Lobes kLobes, JointMasking kG, Accuracy A, class D, class... In>
-HWY_INLINE void SampleRoughDielectric(D d, hn::Mask<D> radiance, Vec<D>& ox, Vec<D>& oy, Vec<D>& oz,
-                                      Vec<D>& weight, Vec<D>& pdf, Vec<D>& lobe, In... in) {
+// SampleRoughSurfacePass, then what it found hard in double lanes. in: ix, iy, iz, u1, u2, u3, both
+// parameters of the interface, then the distribution's.
+template <class Dist, class Interface, Lobes kLobes, JointMasking kG, Accuracy A, class D, class... In>
+HWY_INLINE void SampleRoughSurface(D d, hn::Mask<D> radiance, Vec<D>& ox, Vec<D>& oy, Vec<D>& oz,
+                                   Vec<D>& weight, Vec<D>& pdf, Vec<D>& lobe, In... in) {
   hn::Mask<D> hard = hn::MaskFromVec(hn::Zero(d));
-  SampleRoughDielectricPass<Dist, kLobes, kG, A>(d, radiance, ox, oy, oz, weight, pdf, lobe, hard, in...);
+  SampleRoughSurfacePass<Dist, Interface, kLobes, kG, A>(d, radiance, ox, oy, oz, weight, pdf, lobe, hard,
+                                                         in...);
   if (kIsFloat<D> && HWY_UNLIKELY(!hn::AllFalse(d, hard))) {
     Vec<D> ox_, oy_, oz_, weight_, pdf_, lobe_;
-    SampleRoughDielectricInDouble<Dist, kLobes, kG>(d, radiance, ox_, oy_, oz_, weight_, pdf_, lobe_, in...);
+    SampleRoughSurfaceInDouble<Dist, Interface, kLobes, kG>(d, radiance, ox_, oy_, oz_, weight_, pdf_, lobe_,
+                                                            in...);
     ox = hn::IfThenElse(hard, ox_, ox);
     oy = hn::IfThenElse(hard, oy_, oy);
     oz = hn::IfThenElse(hard, oz_, oz);
@@ -621,6 +683,17 @@ HWY_INLINE void SampleRoughDielectric(D d, hn::Mask<D> radiance, Vec<D>& ox, Vec
     pdf = hn::IfThenElse(hard, pdf_, pdf);
     lobe = hn::IfThenElse(hard, lobe_, lobe);
   }
+}
+
+// Walter 2007 section 5.3: m by Dist's D cos sampling, o by Eq. 39 or 40, the weight by Eq. 41. With both
+// lobes u3 chooses by Fresnel, else it has no effect and the weight carries F or 1 - F. p: the distribution's
+// parameters.
+template <class Dist, Lobes kLobes, JointMasking kG, Accuracy A, class D, class... P>
+HWY_INLINE void SampleRoughDielectric(D d, hn::Mask<D> radiance, Vec<D>& ox, Vec<D>& oy, Vec<D>& oz,
+                                      Vec<D>& weight, Vec<D>& pdf, Vec<D>& lobe, Vec<D> ix, Vec<D> iy,
+                                      Vec<D> iz, Vec<D> u1, Vec<D> u2, Vec<D> u3, Vec<D> eta, P... p) {
+  SampleRoughSurface<Dist, DielectricInterface, kLobes, kG, A>(d, radiance, ox, oy, oz, weight, pdf, lobe, ix,
+                                                               iy, iz, u1, u2, u3, eta, hn::Zero(d), p...);
 }
 
 }  // namespace

@@ -53,7 +53,7 @@ HWY_INLINE void Stretch(D d, Vec<D>& ux, Vec<D>& uy, Vec<D>& uz, Vec<D>& uz_tail
   if constexpr (kCare != Care::kCareful) {
     ux = ay;
     uy = ax;
-    Vec<D> last = hn::Mul(ax, ay);
+    Vec<D> last = hn::Mul(ax, ay);  // NOLINT(misc-const-correctness)
     uz = last;
     uz_tail = hn::Zero(d);
     if constexpr (kCare == Care::kCompensated) {

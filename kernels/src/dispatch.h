@@ -61,6 +61,8 @@ template <Normals kNormals>
 const FamilyFunction* NormalsTable();
 template <Normals kNormals>
 const FamilyFunction* RoughDielectricTable();
+template <Normals kNormals>
+const FamilyFunction* RoughReflectorTable();
 template <>
 const FamilyFunction* NormalsTable<Normals::kGgx>();
 template <>
@@ -73,6 +75,12 @@ template <>
 const FamilyFunction* RoughDielectricTable<Normals::kBeckmann>();
 template <>
 const FamilyFunction* RoughDielectricTable<Normals::kPhong>();
+template <>
+const FamilyFunction* RoughReflectorTable<Normals::kGgx>();
+template <>
+const FamilyFunction* RoughReflectorTable<Normals::kBeckmann>();
+template <>
+const FamilyFunction* RoughReflectorTable<Normals::kPhong>();
 
 // What CallBuilder::Run runs: the kernel of that index, of the family that the table stands for.
 template <class T>

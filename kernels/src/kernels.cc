@@ -25,12 +25,20 @@ const FamilyFunction* RoughDielectricTableOf(std::size_t normals, std::index_seq
    ...);
   return table;
 }
+template <std::size_t... kNormals>
+const FamilyFunction* RoughReflectorTableOf(std::size_t normals, std::index_sequence<kNormals...>) {
+  const FamilyFunction* table = nullptr;
+  ((normals == kNormals ? void(table = RoughReflectorTable<static_cast<Normals>(kNormals)>()) : void()), ...);
+  return table;
+}
 
 const FamilyFunction* TableOf(std::size_t kernel) {
-  constexpr std::size_t first_dielectric = kNumComponentKernels + kNumNormalKernels;
-  if (kernel >= first_dielectric) {
-    return RoughDielectricTableOf((kernel - first_dielectric) / kNumDielectricQuantities,
-                                  std::make_index_sequence<kNumDielectricFamilies>());
+  constexpr auto families = std::make_index_sequence<kNumModelFamilies>();
+  if (kernel >= kFirstReflectorKernel) {
+    return RoughReflectorTableOf(static_cast<std::size_t>(PlaceOfReflectorKernel(kernel).normals), families);
+  }
+  if (kernel >= kFirstDielectricKernel) {
+    return RoughDielectricTableOf((kernel - kFirstDielectricKernel) / kNumDielectricQuantities, families);
   }
   if (kernel >= kNumComponentKernels) {
     const NormalRow& row = kNormalRows[kNormalKernelPlaces[kernel - kNumComponentKernels].row];

@@ -3,7 +3,7 @@
 #include "hwy/foreach_target.h"  // must stand before highway.h
 #include "microlane/ggx-inl.h"
 #include "src/rough_dielectric_call.h"
-#include "src/rough_dielectric_kernels-inl.h"
+#include "src/rough_surface_kernels-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace microlane {

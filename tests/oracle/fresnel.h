@@ -59,13 +59,19 @@ inline Complex Root(const Complex& a) {
   return a.re < 0 ? Complex{lesser, larger} : Complex{larger, lesser};
 }
 
+// g of a conductor, below.
+inline Complex ConductorG(const Real& c, const Real& n, const Real& kappa) {
+  const Complex index{n, kappa};
+  return Root(index * index - Complex{1 - c * c, 0});
+}
+
 // r_s = (c - g)/(c + g) and r_p = (N^2 c - g)/(N^2 c + g) for N = n + i kappa, g = sqrt(N^2 - s^2), s^2 = 1 -
 // c^2;
 // (|r_s|^2 + |r_p|^2)/2.
 inline Real FresnelConductor(const Real& cos_i, const Real& n, const Real& kappa) {
   if (n == 1 && kappa == 0) return 0;
   const Complex c{abs(cos_i), 0}, index{n, kappa}, index2 = index * index;
-  const Complex g = Root(index2 - Complex{1 - c.re * c.re, 0});
+  const Complex g = ConductorG(c.re, n, kappa);
   const Real s = SquaredModulus(c - g) / SquaredModulus(c + g);
   const Real p = SquaredModulus(index2 * c - g) / SquaredModulus(index2 * c + g);
   return (s + p) / 2;

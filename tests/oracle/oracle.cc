@@ -13,6 +13,7 @@
 #include "oracle/masking.h"
 #include "oracle/math.h"
 #include "oracle/phong.h"
+#include "oracle/rough_reflector.h"
 
 namespace microlane::oracle {
 namespace {
@@ -151,6 +152,22 @@ void OfNormals(Call& call) {
   }
 }
 
+void StoreSample(const DirectionSample& sample, Call& call) {
+  Store(sample.wo, call.out);
+  call.out[3] = sample.weight;
+  call.out[4] = sample.pdf;
+  call.out[5] = sample.lobe;
+  call.kappa = sample.kappa;
+  call.weight_kappa = sample.weight_kappa;
+  call.direction_kappa = sample.direction_kappa;
+  call.margin = sample.margin;
+}
+
+// The roughness that the models take.
+constexpr RoughnessKind ModelRoughness(Normals normals) {
+  return normals == Normals::kPhong ? RoughnessKind::kExponent : RoughnessKind::kAnisotropic;
+}
+
 // The rough dielectric by its place in kDielectricQuantities.
 template <Normals kNormals, std::size_t kQuantity>
 void Dielectric(Call& call) {
@@ -158,30 +175,55 @@ void Dielectric(Call& call) {
   constexpr int lobes = (row.reflects ? kReflection : 0) | (row.transmits ? kTransmission : 0);
   constexpr bool one_lobe_sampled = row.what == DielectricQuantity::kSample && !row.HasBothLobes();
   const Real* const parameters = call.in + (one_lobe_sampled ? 5 : 6);
-  constexpr RoughnessKind roughness =
-      kNormals == Normals::kPhong ? RoughnessKind::kExponent : RoughnessKind::kAnisotropic;
+  constexpr RoughnessKind roughness = ModelRoughness(kNormals);
   constexpr std::size_t eta = Split(kRoughnesses[static_cast<std::size_t>(roughness)].parameters).count;
   const auto normals = MakeNormals<kNormals, roughness>(parameters);
   const RoughDielectric<std::remove_const_t<decltype(normals)>> bsdf{
       normals, parameters[eta], row.separable ? Masking::kSeparable : Masking::kCorrelated, call.transport};
   const Vec wi = Direction(call.in);
   if constexpr (row.what == DielectricQuantity::kSample) {
-    const DirectionSample sample = bsdf.Sample(
-        wi, call.in[3], call.in[4], one_lobe_sampled ? Real(0) : call.in[5], lobes, call.lobe_hint);
-    Store(sample.wo, call.out);
-    call.out[3] = sample.weight;
-    call.out[4] = sample.pdf;
-    call.out[5] = sample.lobe;
-    call.kappa = sample.kappa;
-    call.weight_kappa = sample.weight_kappa;
-    call.direction_kappa = sample.direction_kappa;
-    call.margin = sample.margin;
+    StoreSample(bsdf.Sample(wi, call.in[3], call.in[4], one_lobe_sampled ? Real(0) : call.in[5], lobes,
+                            call.lobe_hint),
+                call);
   } else {
     const Vec wo = Direction(call.in + 3);
     if constexpr (row.HasValue()) call.out[0] = bsdf.EvalCos(wi, wo, lobes);
     if constexpr (row.what != DielectricQuantity::kEval) {
       call.out[row.HasValue() ? 1 : 0] = bsdf.Pdf(wi, wo, lobes);
     }
+  }
+}
+
+template <Reflector kReflector>
+auto MakeFacets(const Real* in) {
+  if constexpr (kReflector == Reflector::kMirror) {
+    return MirrorFacets{};
+  } else if constexpr (kReflector == Reflector::kConductor) {
+    return ConductorFacets{in[0], in[1]};
+  } else {
+    return SchlickFacets{in[0]};
+  }
+}
+
+// A kernel of an opaque surface.
+template <std::size_t kKernel>
+void OfReflector(Call& call) {
+  constexpr ReflectorKernelPlace place = PlaceOfReflectorKernel(kKernel);
+  constexpr DielectricQuantity row = kReflectorQuantities[place.quantity];
+  constexpr RoughnessKind roughness = ModelRoughness(place.normals);
+  constexpr std::size_t count = Split(kRoughnesses[static_cast<std::size_t>(roughness)].parameters).count;
+  const Real* const parameters = call.in + Split(kKernels[kKernel].inputs).per_lane;
+  const auto normals = MakeNormals<place.normals, roughness>(parameters);
+  const auto facets = MakeFacets<place.reflector>(parameters + count);
+  const RoughReflector<std::remove_const_t<decltype(normals)>, std::remove_const_t<decltype(facets)>> surface{
+      normals, facets, row.separable ? Masking::kSeparable : Masking::kCorrelated};
+  const Vec wi = Direction(call.in);
+  if constexpr (row.what == DielectricQuantity::kSample) {
+    StoreSample(surface.Sample(wi, call.in[3], call.in[4], call.lobe_hint), call);
+  } else {
+    const Vec wo = Direction(call.in + 3);
+    call.out[0] = surface.EvalCos(wi, wo);
+    if constexpr (row.what == DielectricQuantity::kEvalPdf) call.out[1] = surface.Pdf(wi, wo);
   }
 }
 
@@ -307,6 +349,11 @@ constexpr void AddDielectrics(std::array<Resolved, kNumKernels>& table, std::ind
   ((table[DielectricKernel(kNormals, kQuantity)].function = Dielectric<kNormals, kQuantity>), ...);
 }
 
+template <std::size_t... kPlace>
+constexpr void AddReflectors(std::array<Resolved, kNumKernels>& table, std::index_sequence<kPlace...>) {
+  ((table[kFirstReflectorKernel + kPlace].function = OfReflector<kFirstReflectorKernel + kPlace>), ...);
+}
+
 constexpr std::array<Resolved, kNumKernels> Resolve() {
   std::array<Resolved, kNumKernels> table{};
   for (std::size_t k = 0; k < kNumKernels; ++k) {
@@ -326,6 +373,7 @@ constexpr std::array<Resolved, kNumKernels> Resolve() {
   AddDielectrics<Normals::kGgx>(table, quantities);
   AddDielectrics<Normals::kBeckmann>(table, quantities);
   AddDielectrics<Normals::kPhong>(table, quantities);
+  AddReflectors(table, std::make_index_sequence<kNumReflectorKernels>());
   return table;
 }
 

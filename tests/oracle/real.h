@@ -29,7 +29,7 @@ inline const Real& SqrtPi() {
 
 // std::numeric_limits<Real>::infinity() of Boost 1.74 fills a static without a lock: another thread may see
 // 0.
-inline Real Infinity() { return Real(std::numeric_limits<double>::infinity()); }
+inline Real Infinity() { return std::numeric_limits<double>::infinity(); }
 
 inline Real Square(const Real& x) { return x * x; }
 

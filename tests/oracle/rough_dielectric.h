@@ -56,6 +56,22 @@ struct DirectionSample {
   Real direction_kappa = 1;  // of wo
 };
 
+// G without its sidedness: Heitz 2014, Eq. 99 (correlated) or 98 (separable; Walter 2007, Eq. 23).
+template <class Distribution>
+Real SmithG2(const Distribution& distribution, Masking masking, const Vec& wi, const Vec& wo) {
+  const Real lambda_i = distribution.Lambda(wi);
+  const Real lambda_o = distribution.Lambda(wo);
+  if (masking == Masking::kCorrelated) return 1 / (1 + lambda_i + lambda_o);
+  return 1 / ((1 + lambda_i) * (1 + lambda_o));
+}
+
+// |d ln G| for a change of wo by 1, at most: by 1/|wo.n|, and by the length |(alpha_x wo.x, alpha_y wo.y,
+// wo.z)| = |wo.n| (1 + 2 Lambda_o).
+template <class Distribution>
+Real MaskingSlope(const Distribution& distribution, const Vec& wo) {
+  return 1 / abs(wo.z) + distribution.Alphas() / (abs(wo.z) * (1 + 2 * distribution.Lambda(wo)));
+}
+
 template <class Distribution>
 struct RoughDielectric {
   Distribution distribution;
@@ -63,20 +79,12 @@ struct RoughDielectric {
   Masking masking = Masking::kCorrelated;
   Transport transport = Transport::kRadiance;
 
-  // G without its sidedness: Heitz 2014, Eq. 99 (correlated) or 98 (separable; Walter 2007, Eq. 23).
-  Real G2(const Vec& wi, const Vec& wo) const {
-    const Real lambda_i = distribution.Lambda(wi);
-    const Real lambda_o = distribution.Lambda(wo);
-    if (masking == Masking::kCorrelated) return 1 / (1 + lambda_i + lambda_o);
-    return 1 / ((1 + lambda_i) * (1 + lambda_o));
-  }
-
   // f |cos(theta_o)|, Walter 2007, Eqs. 19-21, of the lobes wanted.
   Real EvalCos(const Vec& wi, const Vec& wo, int lobes) const {
     const Geometry g = MakeGeometry(wi, wo, eta);
     if ((g.lobe & lobes) == 0) return 0;
     const Real F = FresnelDielectric(g.wi_h, eta);
-    const Real DG = distribution.D(g.h) * G2(wi, wo);
+    const Real DG = distribution.D(g.h) * SmithG2(distribution, masking, wi, wo);
     if (g.lobe == kReflection) return F * DG / (4 * abs(wi.z));
     const Real f_cos = abs(g.wi_h * g.wo_h) * (1 - F) * DG / (abs(wi.z) * g.h_length2);
     return transport == Transport::kRadiance ? eta * eta * f_cos : f_cos;
@@ -144,14 +152,11 @@ struct RoughDielectric {
 
     sample.lobe = lobe;
     sample.wo = wo;
-    sample.weight = c * G2(wi, wo) / (abs(wi.z) * m.z);
+    sample.weight = c * SmithG2(distribution, masking, wi, wo) / (abs(wi.z) * m.z);
     sample.pdf = distribution.D(m) * m.z;
     const Real geometry = (1 + 1 / abs(c)) * (1 + c * c / abs(g2));
     sample.kappa = geometry * (1 + 1 / abs(wo.z));
-    // |d ln G| for a change of wo by 1: by 1/|wo.n|, and by the length |(alpha_x wo.x, alpha_y wo.y, wo.z)| =
-    // |wo.n| (1 + 2 Lambda_o).
-    const Real length = abs(wo.z) * (1 + 2 * distribution.Lambda(wo));
-    sample.weight_kappa = geometry * (1 + 1 / abs(wo.z) + distribution.Alphas() / length);
+    sample.weight_kappa = geometry * (1 + MaskingSlope(distribution, wo));
     (lobes == kBoth ? sample.pdf : sample.weight) *= lobe == kReflection ? F : Real(1 - F);
     if (lobe == kReflection) {
       sample.pdf *= ReflectionJacobian(c);

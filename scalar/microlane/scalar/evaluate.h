@@ -18,6 +18,7 @@
 #include "microlane/scalar/math.h"
 #include "microlane/scalar/phong.h"
 #include "microlane/scalar/rough_dielectric.h"
+#include "microlane/scalar/rough_reflector.h"
 #include "microlane/scalar/sheared.h"
 
 namespace microlane::scalar {
@@ -65,8 +66,8 @@ auto MakeNormals(const Real* in) {
   if constexpr (kNormals == Normals::kGgx) return MakeRough<kRoughness, Ggx>(in);
 }
 
-// The roughness that the rough dielectric takes.
-constexpr RoughnessKind DielectricRoughness(Normals normals) {
+// The roughness that the models take.
+constexpr RoughnessKind ModelRoughness(Normals normals) {
   return normals == Normals::kPhong ? RoughnessKind::kExponent : RoughnessKind::kAnisotropic;
 }
 
@@ -100,6 +101,14 @@ void RunNormals(const Real* in, Real* out, Transport) {
   }
 }
 
+template <class Real>
+void Store(const DirectionSample<Real>& sample, Real* out) {
+  Store(sample.wo, out);
+  out[3] = sample.weight;
+  out[4] = sample.pdf;
+  out[5] = IsNan(sample.weight) ? sample.weight : static_cast<Real>(static_cast<unsigned>(sample.lobe));
+}
+
 template <Masking masking, template <class> class Distribution, class Real>
 RoughDielectric<Distribution, Real, masking> MakeDielectric(const Distribution<Real>& distribution, Real eta,
                                                             Transport transport) {
@@ -117,7 +126,7 @@ struct Dielectric {
     constexpr Masking masking = kRow.separable ? Masking::kSeparable : Masking::kHeightCorrelated;
     constexpr bool one_lobe_sampled = kRow.what == DielectricQuantity::kSample && !kRow.HasBothLobes();
     const Real* const parameters = in + (one_lobe_sampled ? 5 : 6);
-    constexpr RoughnessKind roughness = DielectricRoughness(kNormals);
+    constexpr RoughnessKind roughness = ModelRoughness(kNormals);
     constexpr std::size_t eta = Split(kRoughnesses[static_cast<std::size_t>(roughness)].parameters).count;
     const auto dielectric =
         MakeDielectric<masking>(MakeNormals<kNormals, roughness>(parameters), parameters[eta], transport);
@@ -130,14 +139,50 @@ struct Dielectric {
       out[0] = value.f_cos;
       out[1] = value.pdf;
     } else {
-      const auto sample = dielectric.Sample(Load(in), in[3], in[4], one_lobe_sampled ? 0 : in[5], kLobes);
-      Store(sample.wo, out);
-      out[3] = sample.weight;
-      out[4] = sample.pdf;
-      out[5] = IsNan(sample.weight) ? sample.weight : static_cast<Real>(static_cast<unsigned>(sample.lobe));
+      Store(dielectric.Sample(Load(in), in[3], in[4], one_lobe_sampled ? 0 : in[5], kLobes), out);
     }
   }
 };
+
+template <Masking masking, template <class> class Distribution, template <class> class Facets, class Real>
+RoughReflector<Distribution, Facets, Real, masking> MakeReflector(const Distribution<Real>& distribution,
+                                                                  const Facets<Real>& facets) {
+  return {distribution, facets};
+}
+
+// An opaque surface's facets from their parameters.
+template <Reflector kReflector, class Real>
+auto MakeFacets(const Real* in) {
+  if constexpr (kReflector == Reflector::kMirror) {
+    return MirrorFacets<Real>{};
+  } else if constexpr (kReflector == Reflector::kConductor) {
+    return ConductorFacets<Real>{in[0], in[1]};
+  } else {
+    return SchlickFacets<Real>{in[0]};
+  }
+}
+
+// A kernel of an opaque surface.
+template <class Real, std::size_t kKernel>
+void RunReflector(const Real* in, Real* out, Transport) {
+  constexpr ReflectorKernelPlace place = PlaceOfReflectorKernel(kKernel);
+  constexpr DielectricQuantity row = kReflectorQuantities[place.quantity];
+  constexpr Masking masking = row.separable ? Masking::kSeparable : Masking::kHeightCorrelated;
+  constexpr RoughnessKind roughness = ModelRoughness(place.normals);
+  constexpr std::size_t count = Split(kRoughnesses[static_cast<std::size_t>(roughness)].parameters).count;
+  const Real* const parameters = in + Split(kKernels[kKernel].inputs).per_lane;
+  const auto surface = MakeReflector<masking>(MakeNormals<place.normals, roughness>(parameters),
+                                              MakeFacets<place.reflector>(parameters + count));
+  if constexpr (row.what == DielectricQuantity::kEval) {
+    out[0] = surface.Eval(Load(in), Load(in + 3));
+  } else if constexpr (row.what == DielectricQuantity::kEvalPdf) {
+    const auto value = surface.EvalAndPdf(Load(in), Load(in + 3));
+    out[0] = value.f_cos;
+    out[1] = value.pdf;
+  } else {
+    Store(surface.Sample(Load(in), in[3], in[4]), out);
+  }
+}
 
 template <class Real>
 struct Entry {
@@ -206,9 +251,9 @@ constexpr auto Entries() {
                   }},
 
       Entry<Real>{"fresnel.conductor", [](const Real* in, Real* out,
-                                          Transport) { out[0] = FresnelConductor(in[0], in[1], in[2]); }},
+                                          Transport) { out[0] = ConductorOfCosine(in[0], in[1], in[2]); }},
       Entry<Real>{"fresnel.schlick",
-                  [](const Real* in, Real* out, Transport) { out[0] = FresnelSchlick(in[0], in[1]); }},
+                  [](const Real* in, Real* out, Transport) { out[0] = SchlickOfCosine(in[0], in[1]); }},
 
       Entry<Real>{"half_vector.reflection",
                   [](const Real* in, Real* out, Transport) {
@@ -285,6 +330,11 @@ constexpr void AddDielectrics(KernelTable<Function<Real>>& table, std::index_seq
   ((table[DielectricKernel(kNormals, kQuantity)] = {Dielectric<Real, kNormals, kQuantity>::Run, true}), ...);
 }
 
+template <class Real, std::size_t... kPlace>
+constexpr void AddReflectors(KernelTable<Function<Real>>& table, std::index_sequence<kPlace...>) {
+  ((table[kFirstReflectorKernel + kPlace] = {RunReflector<Real, kFirstReflectorKernel + kPlace>, true}), ...);
+}
+
 // Functions in the order of kKernels; null where the list has an entry that this file has not.
 template <class Real>
 constexpr KernelTable<Function<Real>> Resolve() {
@@ -295,6 +345,7 @@ constexpr KernelTable<Function<Real>> Resolve() {
   AddDielectrics<Normals::kGgx>(table, quantities);
   AddDielectrics<Normals::kBeckmann>(table, quantities);
   AddDielectrics<Normals::kPhong>(table, quantities);
+  AddReflectors(table, std::make_index_sequence<kNumReflectorKernels>());
   return table;
 }
 

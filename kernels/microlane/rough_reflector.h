@@ -1,0 +1,117 @@
+// Opaque rough surfaces in batches: ideal mirrors, conductors and Schlick's approximation as facets. Value,
+// both value and density in one call, sampling; density alone is PdfReflection of rough_dielectric.h.
+//
+// All functions work on n lanes of float or double and are thread-safe. Errors are those that the kernel list
+// declares for the id named with each function, <family>.<id>; NaN in gives NaN out in that lane.
+//
+// Light comes from wi and leaves to wo on the same side of the surface, above or below. Values f_cos = f
+// |cos(theta_o)| and densities pdf are in 1/sr, and 0 where a direction lies in the surface and for opposite
+// sides.
+#ifndef MICROLANE_ROUGH_REFLECTOR_H_
+#define MICROLANE_ROUGH_REFLECTOR_H_
+
+#include <cstddef>
+#include <type_traits>
+
+#include "microlane/kernel_list.h"
+#include "microlane/packets.h"
+#include "microlane/rough_dielectric.h"
+
+namespace microlane {
+
+// Roughness of GGX or Beckmann normals, and of Phong's. Each is one value or one per lane.
+template <class T>
+struct StretchedRoughness {
+  Parameter<T> alpha_x;  // 1e-5 to 100
+  Parameter<T> alpha_y;  // 1e-5 to 100
+};
+template <class T>
+struct PhongRoughness {
+  Parameter<T> exponent;  // 0 to 2e10
+};
+template <Normals kNormals, class T>
+using RoughnessOf = std::conditional_t<kNormals == Normals::kPhong, PhongRoughness<T>, StretchedRoughness<T>>;
+
+// What facets reflect.
+template <Reflector kReflector, class T>
+struct FacetParameters {};  // kMirror: all
+template <class T>
+struct FacetParameters<Reflector::kConductor, T> {
+  Parameter<T> n;      // real part of the index over that of wi's side, 0.05 to 10
+  Parameter<T> kappa;  // its imaginary part, 0 to 20
+};
+template <class T>
+struct FacetParameters<Reflector::kSchlick, T> {
+  Parameter<T> f0;  // reflectance at normal incidence, 0 to 1
+};
+
+// Braces within braces may be left out: {alpha_x, alpha_y, n, kappa}.
+template <Normals kNormals, Reflector kReflector, class T>
+struct OpaqueSurface {
+  RoughnessOf<kNormals, T> roughness;
+  FacetParameters<kReflector, T> facets;
+};
+
+// The calls over one distribution of normals and one kind of facets in lanes of T.
+template <Normals kNormals, Reflector kReflector, class T>
+class RoughReflectorLanes {
+ public:
+  using Surface = OpaqueSurface<kNormals, kReflector, T>;
+
+  // Walter 2007 Eq. 20. eval, eval_separable.
+  static void Eval(std::size_t n, const Directions<T>& wi, const Directions<T>& wo, const Surface& surface,
+                   T* f_cos, Accuracy accuracy = Accuracy::kStandard,
+                   JointMasking masking = JointMasking::kHeightCorrelated);
+
+  // Eval for `channels` wavelengths: facets and output of each. Conductors and Schlick's facets share one D
+  // and G2 in kStandard and kFast lanes of float; errors are those of eval, eval_separable.
+  static void EvalChannels(std::size_t n, const Directions<T>& wi, const Directions<T>& wo,
+                           const RoughnessOf<kNormals, T>& roughness, std::size_t channels,
+                           const FacetParameters<kReflector, T>* facets, T* const* f_cos,
+                           Accuracy accuracy = Accuracy::kStandard,
+                           JointMasking masking = JointMasking::kHeightCorrelated);
+
+  // Eval and the density with which Sample finds wo. Walter 2007 Eqs. 14, 20, 24, 38. eval_pdf,
+  // eval_pdf_separable.
+  static void EvalPdf(std::size_t n, const Directions<T>& wi, const Directions<T>& wo, const Surface& surface,
+                      T* f_cos, T* pdf, Accuracy accuracy = Accuracy::kStandard,
+                      JointMasking masking = JointMasking::kHeightCorrelated);
+
+  // Directions wo from uniform numbers in [0, 1), by D cos sampling of normals. Walter 2007 Eqs. 37-39, 41.
+  // sample, sample_separable.
+  static void Sample(std::size_t n, const Directions<T>& wi, const T* u1, const T* u2, const Surface& surface,
+                     const DielectricSamples<T>& samples, Accuracy accuracy = Accuracy::kStandard,
+                     JointMasking masking = JointMasking::kHeightCorrelated);
+};
+
+// The same in float and double: T is that of the outputs.
+template <Normals kNormals, Reflector kReflector>
+class RoughReflectorCalls : RoughReflectorLanes<kNormals, kReflector, float>,
+                            RoughReflectorLanes<kNormals, kReflector, double> {
+  using Float = RoughReflectorLanes<kNormals, kReflector, float>;
+  using Double = RoughReflectorLanes<kNormals, kReflector, double>;
+
+ public:
+  using Double::Eval;
+  using Double::EvalChannels;
+  using Double::EvalPdf;
+  using Double::Sample;
+  using Float::Eval;
+  using Float::EvalChannels;
+  using Float::EvalPdf;
+  using Float::Sample;
+};
+
+using rough_mirror = RoughReflectorCalls<Normals::kGgx, Reflector::kMirror>;
+using rough_mirror_beckmann = RoughReflectorCalls<Normals::kBeckmann, Reflector::kMirror>;
+using rough_mirror_phong = RoughReflectorCalls<Normals::kPhong, Reflector::kMirror>;
+using rough_conductor = RoughReflectorCalls<Normals::kGgx, Reflector::kConductor>;
+using rough_conductor_beckmann = RoughReflectorCalls<Normals::kBeckmann, Reflector::kConductor>;
+using rough_conductor_phong = RoughReflectorCalls<Normals::kPhong, Reflector::kConductor>;
+using rough_schlick = RoughReflectorCalls<Normals::kGgx, Reflector::kSchlick>;
+using rough_schlick_beckmann = RoughReflectorCalls<Normals::kBeckmann, Reflector::kSchlick>;
+using rough_schlick_phong = RoughReflectorCalls<Normals::kPhong, Reflector::kSchlick>;
+
+}  // namespace microlane
+
+#endif  // MICROLANE_ROUGH_REFLECTOR_H_

@@ -1,0 +1,128 @@
+// The public functions of opaque rough surfaces. Includes no Highway.
+#ifndef MICROLANE_SRC_ROUGH_REFLECTOR_CALL_H_
+#define MICROLANE_SRC_ROUGH_REFLECTOR_CALL_H_
+
+#include <cstddef>
+#include <type_traits>
+
+#include "microlane/rough_reflector.h"
+#include "src/channels.h"
+#include "src/dispatch.h"
+
+namespace microlane {
+
+template <class T>
+void AddRoughness(const StretchedRoughness<T>& roughness, CallBuilder<T>& call) {
+  call.In(roughness.alpha_x).In(roughness.alpha_y);
+}
+template <class T>
+void AddRoughness(const PhongRoughness<T>& roughness, CallBuilder<T>& call) {
+  call.In(roughness.exponent);
+}
+
+template <Reflector kReflector>
+void AddParameter(const Parameter<float>& parameter, std::size_t k, ChannelCall<kReflector>& call) {
+  call.in[k] = parameter.data();
+  call.uniform[k] = parameter.uniform();
+}
+template <Reflector kReflector>
+void AddRoughness(const StretchedRoughness<float>& roughness, ChannelCall<kReflector>& call) {
+  AddParameter(roughness.alpha_x, 6, call);
+  AddParameter(roughness.alpha_y, 7, call);
+}
+template <Reflector kReflector>
+void AddRoughness(const PhongRoughness<float>& roughness, ChannelCall<kReflector>& call) {
+  AddParameter(roughness.exponent, 6, call);
+}
+
+template <class T>
+void AddFacets(const FacetParameters<Reflector::kMirror, T>&, CallBuilder<T>&) {}
+template <class T>
+void AddFacets(const FacetParameters<Reflector::kConductor, T>& facets, CallBuilder<T>& call) {
+  call.In(facets.n).In(facets.kappa);
+}
+template <class T>
+void AddFacets(const FacetParameters<Reflector::kSchlick, T>& facets, CallBuilder<T>& call) {
+  call.In(facets.f0);
+}
+
+template <Normals kNormals, Reflector kReflector, class T>
+void AddSurface(const OpaqueSurface<kNormals, kReflector, T>& surface, CallBuilder<T>& call) {
+  AddRoughness(surface.roughness, call);
+  AddFacets(surface.facets, call);
+}
+
+template <Normals kNormals, Reflector kReflector, DielectricQuantity::What kWhat, class T>
+void RunReflector(const CallBuilder<T>& call, JointMasking masking, Accuracy accuracy, std::size_t n) {
+  constexpr std::size_t kCorrelated = FindReflectorQuantity(kWhat, false);
+  constexpr std::size_t kSeparable = FindReflectorQuantity(kWhat, true);
+  const FamilyFunction* table = RoughReflectorTable<kNormals>();
+  if (masking == JointMasking::kSeparable) {
+    call.template Run<ReflectorKernel({kNormals, kReflector, kSeparable})>(table, accuracy, n);
+  } else {
+    call.template Run<ReflectorKernel({kNormals, kReflector, kCorrelated})>(table, accuracy, n);
+  }
+}
+
+template <Normals kNormals, Reflector kReflector, class T>
+void RoughReflectorLanes<kNormals, kReflector, T>::Eval(std::size_t n, const Directions<T>& wi,
+                                                        const Directions<T>& wo, const Surface& surface,
+                                                        T* f_cos, Accuracy accuracy, JointMasking masking) {
+  CallBuilder<T> call;
+  call.In(wi).In(wo);
+  AddSurface(surface, call);
+  call.Out(f_cos);
+  RunReflector<kNormals, kReflector, DielectricQuantity::kEval>(call, masking, accuracy, n);
+}
+
+template <Normals kNormals, Reflector kReflector, class T>
+void RoughReflectorLanes<kNormals, kReflector, T>::EvalChannels(
+    std::size_t n, const Directions<T>& wi, const Directions<T>& wo,
+    const RoughnessOf<kNormals, T>& roughness, std::size_t channels,
+    const FacetParameters<kReflector, T>* facets, T* const* f_cos, Accuracy accuracy, JointMasking masking) {
+  if constexpr (std::is_same_v<T, float> && kReflector != Reflector::kMirror) {
+    if (accuracy != Accuracy::kHigh) {
+      ChannelCall<kReflector> call{{wi.x, wi.y, wi.z, wo.x, wo.y, wo.z},
+                                   {},
+                                   masking == JointMasking::kSeparable,
+                                   accuracy,
+                                   channels,
+                                   facets,
+                                   f_cos};
+      AddRoughness(roughness, call);
+      RunOnTarget<kNormals>(call, n);
+      return;
+    }
+  }
+  for (std::size_t c = 0; c < channels; ++c) {
+    Eval(n, wi, wo, {roughness, facets[c]}, f_cos[c], accuracy, masking);
+  }
+}
+
+template <Normals kNormals, Reflector kReflector, class T>
+void RoughReflectorLanes<kNormals, kReflector, T>::EvalPdf(std::size_t n, const Directions<T>& wi,
+                                                           const Directions<T>& wo, const Surface& surface,
+                                                           T* f_cos, T* pdf, Accuracy accuracy,
+                                                           JointMasking masking) {
+  CallBuilder<T> call;
+  call.In(wi).In(wo);
+  AddSurface(surface, call);
+  call.Out(f_cos).Out(pdf);
+  RunReflector<kNormals, kReflector, DielectricQuantity::kEvalPdf>(call, masking, accuracy, n);
+}
+
+template <Normals kNormals, Reflector kReflector, class T>
+void RoughReflectorLanes<kNormals, kReflector, T>::Sample(std::size_t n, const Directions<T>& wi, const T* u1,
+                                                          const T* u2, const Surface& surface,
+                                                          const DielectricSamples<T>& samples,
+                                                          Accuracy accuracy, JointMasking masking) {
+  CallBuilder<T> call;
+  call.In(wi).In(u1).In(u2);
+  AddSurface(surface, call);
+  call.Out(samples.wo).Out(samples.weight).Out(samples.pdf).Out(samples.lobe);
+  RunReflector<kNormals, kReflector, DielectricQuantity::kSample>(call, masking, accuracy, n);
+}
+
+}  // namespace microlane
+
+#endif  // MICROLANE_SRC_ROUGH_REFLECTOR_CALL_H_

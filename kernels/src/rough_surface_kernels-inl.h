@@ -1,0 +1,128 @@
+// Batch kernels of rough dielectrics and opaque surfaces, over a distribution policy and the kernel list's
+// quantities.
+#if defined(MICROLANE_SRC_ROUGH_SURFACE_KERNELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef MICROLANE_SRC_ROUGH_SURFACE_KERNELS_INL_H_
+#undef MICROLANE_SRC_ROUGH_SURFACE_KERNELS_INL_H_
+#else
+#define MICROLANE_SRC_ROUGH_SURFACE_KERNELS_INL_H_
+#endif
+
+#include <cstddef>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+
+#include "microlane/rough_dielectric-inl.h"
+#include "microlane/rough_reflector-inl.h"
+#include "src/batch-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace microlane {
+namespace HWY_NAMESPACE {
+namespace {
+
+// run(what stands behind the first kCount of p, then those).
+template <std::size_t kCount, class F, class V, class... P>
+HWY_INLINE void RotateLeft(F run, V first, P... p) {
+  if constexpr (kCount == 0) {
+    run(first, p...);
+  } else {
+    RotateLeft<kCount - 1>(run, p..., first);
+  }
+}
+
+// One kernel of a model; kRow is its place in kDielectricQuantities or kReflectorQuantities.
+template <class Dist, class Facets, std::size_t kKernel, std::size_t kRow>
+struct RoughSurfaceKernel {
+  static constexpr bool kDielectric = std::is_same_v<Facets, DielectricInterface>;
+  static constexpr DielectricQuantity kQuantity = kDielectric ? kDielectricQuantities[kDielectric ? kRow : 0]
+                                                              : kReflectorQuantities[kDielectric ? 0 : kRow];
+  static constexpr std::string_view kId = kKernels[kKernel].id;
+  static constexpr bool kSamples = kQuantity.what == DielectricQuantity::kSample;
+  static constexpr bool kValue = kQuantity.HasValue(), kPdf = kQuantity.what != DielectricQuantity::kEval;
+  static constexpr Lobes kLobes = kQuantity.HasBothLobes() ? Lobes::kBoth
+                                  : kQuantity.reflects     ? Lobes::kReflection
+                                                           : Lobes::kTransmission;
+  static constexpr JointMasking kG =
+      kQuantity.separable ? JointMasking::kSeparable : JointMasking::kHeightCorrelated;
+  // Every input enters a product of the result; but Min and Max drop NaN on SCALAR, EMU128 and Arm.
+  static constexpr bool kPassesNan = kDielectric && !Dist::kHasExponent && kValue && !kPdf &&
+                                     kLobes != Lobes::kTransmission && HWY_ARCH_X86 &&
+                                     HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128;
+
+  template <Accuracy A, class D, class... V>
+  static HWY_INLINE void Eval(D d, const Options<D>& options, const Outputs<D>& out, Vec<D> ix, Vec<D> iy,
+                              Vec<D> iz, Vec<D> a, Vec<D> b, V... rest) {
+    if constexpr (kSamples && kLobes != Lobes::kBoth) {
+      FacetsFirst<A>(d, options, out, ix, iy, iz, a, b, hn::Zero(d), rest...);
+    } else {
+      FacetsFirst<A>(d, options, out, ix, iy, iz, a, b, rest...);
+    }
+  }
+
+ private:
+  // Parameters come as (the distribution's, the facets') in the kernel list, and the other way round in the
+  // lane functions. a, b, c: wo, or the random numbers.
+  template <Accuracy A, class D, class... P>
+  static HWY_INLINE void FacetsFirst(D d, const Options<D>& options, const Outputs<D>& out, Vec<D> ix,
+                                     Vec<D> iy, Vec<D> iz, Vec<D> a, Vec<D> b, Vec<D> c, P... p) {
+    const auto run = [&](auto... q) HWY_ATTR {
+      if constexpr (kSamples && kDielectric) {
+        SampleRoughDielectric<Dist, kLobes, kG, A>(d, options.radiance, out.v0, out.v1, out.v2, out.v3,
+                                                   out.v4, out.v5, ix, iy, iz, a, b, c, q...);
+      } else if constexpr (kSamples) {
+        SampleRoughReflector<Dist, Facets, kG, A>(d, out.v0, out.v1, out.v2, out.v3, out.v4, out.v5, ix, iy,
+                                                  iz, a, b, q...);
+      } else if constexpr (kDielectric) {
+        RoughDielectric<Dist, kLobes, kG, kValue, kPdf, A>(
+            d, options.radiance, out.v0, kValue ? out.v1 : out.v0, ix, iy, iz, a, b, c, q...);
+      } else {
+        RoughReflector<Dist, Facets, kG, kValue, kPdf, A>(d, out.v0, out.v1, ix, iy, iz, a, b, c, q...);
+      }
+    };
+    RotateLeft<sizeof...(P) - Facets::kParameters>(run, p...);
+  }
+};
+
+template <class Dist, Normals kNormals, std::size_t kQuantity>
+using RoughDielectricKernel =
+    RoughSurfaceKernel<Dist, DielectricInterface, DielectricKernel(kNormals, kQuantity), kQuantity>;
+
+template <Reflector kReflector>
+using FacetsOf = std::conditional_t<
+    kReflector == Reflector::kMirror, MirrorFacets,
+    std::conditional_t<kReflector == Reflector::kConductor, ConductorFacets, SchlickFacets>>;
+
+template <class Dist, Normals kNormals, std::size_t kQuantity>
+using RoughReflectorKernel =
+    RoughSurfaceKernel<Dist, FacetsOf<static_cast<Reflector>(kQuantity / kNumReflectorQuantities)>,
+                       ReflectorKernel({kNormals, static_cast<Reflector>(kQuantity / kNumReflectorQuantities),
+                                        kQuantity % kNumReflectorQuantities}),
+                       kQuantity % kNumReflectorQuantities>;
+
+template <class Dist, Normals kNormals, std::size_t... kQuantity>
+FamilyCode RoughDielectricFamily(std::index_sequence<kQuantity...>) {
+  return Family<RoughDielectricKernel<Dist, kNormals, kQuantity>...>();
+}
+template <class Dist, Normals kNormals, std::size_t... kQuantity>
+FamilyCode RoughReflectorFamily(std::index_sequence<kQuantity...>) {
+  return Family<RoughReflectorKernel<Dist, kNormals, kQuantity>...>();
+}
+
+// The tables of all of the kernel list's quantities on this target.
+template <class Dist, Normals kNormals>
+FamilyCode RoughDielectricFamily() {
+  return RoughDielectricFamily<Dist, kNormals>(std::make_index_sequence<kNumDielectricQuantities>());
+}
+template <class Dist, Normals kNormals>
+FamilyCode RoughReflectorFamily() {
+  return RoughReflectorFamily<Dist, kNormals>(
+      std::make_index_sequence<kNumReflectors * kNumReflectorQuantities>());
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace microlane
+HWY_AFTER_NAMESPACE();
+
+#endif  // MICROLANE_SRC_ROUGH_SURFACE_KERNELS_INL_H_

@@ -1,0 +1,92 @@
+// Opaque rough surfaces: Walter 2007, Eq. 20, over any distribution of normals and kind of facets.
+#ifndef MICROLANE_TESTS_ORACLE_ROUGH_REFLECTOR_H_
+#define MICROLANE_TESTS_ORACLE_ROUGH_REFLECTOR_H_
+
+#include <algorithm>
+
+#include "oracle/fresnel.h"
+#include "oracle/half_vector.h"
+#include "oracle/real.h"
+#include "oracle/rough_dielectric.h"
+
+namespace microlane::oracle {
+
+// Reflectance of a facet at the cosine c, and what it makes of a relative rounding of c, at least 1; see
+// Metric::kConditioned.
+struct MirrorFacets {
+  Real Reflectance(const Real&) const { return 1; }
+  Real Conditioning(const Real&) const { return 1; }
+};
+
+struct ConductorFacets {
+  Real n, kappa;
+
+  Real Reflectance(const Real& c) const { return FresnelConductor(c, n, kappa); }
+  Real Conditioning(const Real& c) const { return 1 + c * c / SquaredModulus(ConductorG(abs(c), n, kappa)); }
+};
+
+struct SchlickFacets {
+  Real f0;
+
+  Real Reflectance(const Real& c) const { return FresnelSchlick(c, f0); }
+  // 1 + |dF/dc| / F.
+  Real Conditioning(const Real& c) const {
+    const Real x = 1 - abs(c);
+    if (x <= 0) return f0 > 0 ? Real(1) : Infinity();
+    return 1 + 5 * (1 - f0) * pow(x, 4) / Reflectance(c);
+  }
+};
+
+template <class Distribution, class Facets>
+struct RoughReflector {
+  Distribution distribution;
+  Facets facets;
+  Masking masking = Masking::kCorrelated;
+
+  // f |cos(theta_o)|, Walter 2007, Eq. 20.
+  Real EvalCos(const Vec& wi, const Vec& wo) const {
+    const Geometry g = MakeGeometry(wi, wo, 1);
+    if (g.lobe != kReflection) return 0;
+    return facets.Reflectance(g.wi_h) * distribution.D(g.h) * SmithG2(distribution, masking, wi, wo) /
+           (4 * abs(wi.z));
+  }
+
+  // Walter 2007, Eqs. 14, 24 and 38.
+  Real Pdf(const Vec& wi, const Vec& wo) const {
+    const Geometry g = MakeGeometry(wi, wo, 1);
+    if (g.lobe != kReflection) return 0;
+    return distribution.D(g.h) * g.h.z * abs(g.wo_h) / g.h_length2;
+  }
+
+  // Walter 2007, section 5.3. A lobe_hint >= 0 takes that lobe whatever the decisions would be; margin is
+  // still that of the decisions.
+  DirectionSample Sample(const Vec& wi, const Real& u1, const Real& u2, int lobe_hint) const {
+    DirectionSample sample;
+    if (wi.z == 0) return sample;
+    const int sign = Sign(wi.z);
+    const Vec m = distribution.SampleNormal(u1, u2);
+    if (m.z == 0) return sample;
+    const Vec facing = Real(sign) * m;
+    const Real c = Dot(wi, facing);
+    const Vec wo = Reflect(wi, facing);
+    sample.margin = static_cast<double>(Real(abs(c)));
+    int lobe = kNone;
+    if (c > 0) {
+      sample.margin = std::min(sample.margin, static_cast<double>(Real(abs(wo.z))));
+      if (sign * wo.z > 0) lobe = kReflection;
+    }
+    if (lobe_hint >= 0) lobe = lobe_hint;
+    if (lobe == kNone) return sample;
+    sample.lobe = lobe;
+    sample.wo = wo;
+    sample.weight = facets.Reflectance(c) * c * SmithG2(distribution, masking, wi, wo) / (abs(wi.z) * m.z);
+    sample.pdf = distribution.D(m) * m.z * ReflectionJacobian(c);
+    sample.kappa = (1 + 1 / abs(c)) * (1 + 1 / abs(wo.z));
+    sample.weight_kappa = (1 + 1 / abs(c)) * facets.Conditioning(c) * (1 + MaskingSlope(distribution, wo));
+    return sample;
+  }
+};
+
+}  // namespace microlane::oracle
+
+#endif  // MICROLANE_TESTS_ORACLE_ROUGH_REFLECTOR_H_
