@@ -586,8 +586,8 @@ TEST(VisibleReflectionSampler, WeightsAreAtMostOne) {
   for (const VisibleCase& c : VisibleCases()) {
     std::mt19937_64 random(seed++);
     const std::vector<Column<float>> out = SampleReflections<float>(c, 20000, random);
-    for (std::size_t i = 0; i < out[3].size(); ++i) {
-      tally.Add(std::max(0.0, double{out[3][i]} - 1), 0, [&] { return c.Text(); });
+    for (const float weight : out[3]) {
+      tally.Add(std::max(0.0, double{weight} - 1), 0, [&] { return c.Text(); });
     }
   }
 }

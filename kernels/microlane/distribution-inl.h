@@ -303,7 +303,7 @@ HWY_INLINE void NormalFromSlopes(D d, Vec<D>& mx, Vec<D>& my, Vec<D>& mz, Vec<D>
     TwoSum(z, slope2, n, n_tail);
     slope2_tail = hn::MulAdd(roughness2, t_tail, hn::MulAdd(roughness2_tail, t, slope2_tail));
     n_tail = hn::Add(n_tail, kUnitZ ? slope2_tail : hn::Add(slope2_tail, w_tail));
-    Vec<D> length2 = n, length2_tail = n_tail;
+    Vec<D> length2 = n, length2_tail = n_tail;  // NOLINT(misc-const-correctness)
     if constexpr (!kUnitZ) {
       TwoProduct(d, w, n, length2, length2_tail);
       length2_tail = hn::MulAdd(w, n_tail, hn::MulAdd(w_tail, n, length2_tail));
@@ -442,7 +442,7 @@ HWY_INLINE void ReflectAboutVisible(D d, Vec<D>& ox, Vec<D>& oy, Vec<D>& oz, Vec
   const auto below = hn::Lt(vz, zero);
   const Vec<D> turned = hn::IfThenElse(below, hn::Neg(s), s);
   const Vec<D> wx = hn::MulSub(turned, x, vx), wy = hn::MulSub(turned, y, vy);
-  Vec<D> wz = hn::MulSub(s, z_m, z);
+  Vec<D> wz = hn::MulSub(s, z_m, z);  // NOLINT(misc-const-correctness)
   if constexpr (A != Accuracy::kFast) wz = hn::MulAdd(s, z_tail, wz);
   const Vec<D> mu_o = Dist::template Masking<Care::kPlain, A>(d, wx, wy, wz, p...);
   // Scaled, so that two grazing cosines do not underflow together.

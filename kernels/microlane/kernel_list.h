@@ -307,7 +307,8 @@ struct NormalRow {
   NormalQuantity::What what;
   std::string_view name, source, note;
   Bounds bounds[kNumRoughnesses];
-  std::string_view own_inputs{}, own_outputs{};  // of kOwn, whose bounds stand first
+  // Of kOwn, whose bounds stand first. NOLINTNEXTLINE(readability-redundant-member-init): rows may leave them out
+  std::string_view own_inputs{}, own_outputs{};
 
   constexpr bool Takes(std::size_t roughness) const { return bounds[roughness].high > 0; }
 };

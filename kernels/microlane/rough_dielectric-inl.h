@@ -228,7 +228,8 @@ HWY_INLINE V MaskingDenominator(V zi, V mu_i, V zo, V mu_o) {
   }
 }
 template <JointMasking kG>
-constexpr double kMaskingFactor = kG == JointMasking::kHeightCorrelated ? 2.0 : 4.0;
+constexpr double kMaskingFactor =
+    kG == JointMasking::kHeightCorrelated ? 2.0 : 4.0;  // NOLINT(google-readability-casting)
 
 // What facets are: an interface between dielectrics, or what opaque surfaces have (rough_reflector-inl.h).
 // q0 and q1 are its parameters.
@@ -609,7 +610,8 @@ HWY_INLINE void SampleRoughSurfacePass(D d, hn::Mask<D> radiance, Vec<D>& ox, Ve
   const Vec<D> mu_i = Dist::template Masking<Care::kPlain, A>(d, ix, iy, iz, p...);
   const Vec<D> mu_o = Dist::template Masking<Care::kPlain, A>(d, ox, oy, zo, p...);
   const Vec<D> masking = MaskingDenominator<kG>(iz, mu_i, zo, mu_o);
-  const Vec<D> numerator = hn::Mul(hn::Mul(Const(d, kMaskingFactor<kG>), zo), c);
+  const Vec<D> numerator =
+      hn::Mul(hn::Mul(Const(d, kMaskingFactor<kG>), zo), c);  // NOLINT(google-readability-casting)
   // Radiance takes Eq. 41 as it is; importance loses the eta^2 of transmission.
   const Vec<D> lobe_factor = OfLobe<kLobes>(transmits, hn::IfThenElse(radiance, one, eta2), one);
   const Vec<D> denominator = hn::Mul(hn::Mul(mz, masking), lobe_factor);

@@ -146,7 +146,7 @@ struct ShearedDensityOp {
                              P... p) {
     Vec<DD> x, y, area;
     UnitSlopes(dd, x, y, area, hx, hy, hz, p...);
-    Vec<DD> e = hn::Max(hn::Mul(hz, hz), Const(dd, 0x1p-36));
+    Vec<DD> e = hn::Max(hn::Mul(hz, hz), Const(dd, 0x1p-36));  // NOLINT(misc-const-correctness)
     if constexpr (kWithSlopes) e = hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(hz, hz)));
     density = unused = hn::Div(Const(dd, 1), hn::Mul(area, hn::Mul(e, e)));
   }
