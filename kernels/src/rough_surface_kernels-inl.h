@@ -21,16 +21,6 @@ namespace microlane {
 namespace HWY_NAMESPACE {
 namespace {
 
-// run(what stands behind the first kCount of p, then those).
-template <std::size_t kCount, class F, class V, class... P>
-HWY_INLINE void RotateLeft(F run, V first, P... p) {
-  if constexpr (kCount == 0) {
-    run(first, p...);
-  } else {
-    RotateLeft<kCount - 1>(run, p..., first);
-  }
-}
-
 // One kernel of a model; kRow is its place in kDielectricQuantities or kReflectorQuantities.
 template <class Dist, class Facets, std::size_t kKernel, std::size_t kRow>
 struct RoughSurfaceKernel {
@@ -61,26 +51,41 @@ struct RoughSurfaceKernel {
   }
 
  private:
+  // Calls Run with what stands behind the first kCount parameters, then those. No lambda, whose captures
+  // would go through memory.
+  template <std::size_t kCount, Accuracy A, class D, class... P>
+  static HWY_INLINE void RotateLeft(D d, const Options<D>& options, const Outputs<D>& out, Vec<D> ix,
+                                    Vec<D> iy, Vec<D> iz, Vec<D> a, Vec<D> b, Vec<D> c, Vec<D> first,
+                                    P... p) {
+    if constexpr (kCount == 0) {
+      Run<A>(d, options, out, ix, iy, iz, a, b, c, first, p...);
+    } else {
+      RotateLeft<kCount - 1, A>(d, options, out, ix, iy, iz, a, b, c, p..., first);
+    }
+  }
+  template <Accuracy A, class D, class... Q>
+  static HWY_INLINE void Run(D d, const Options<D>& options, const Outputs<D>& out, Vec<D> ix, Vec<D> iy,
+                             Vec<D> iz, Vec<D> a, Vec<D> b, Vec<D> c, Q... q) {
+    if constexpr (kSamples && kDielectric) {
+      SampleRoughDielectric<Dist, kLobes, kG, A>(d, options.radiance, out.v0, out.v1, out.v2, out.v3, out.v4,
+                                                 out.v5, ix, iy, iz, a, b, c, q...);
+    } else if constexpr (kSamples) {
+      SampleRoughReflector<Dist, Facets, kG, A>(d, out.v0, out.v1, out.v2, out.v3, out.v4, out.v5, ix, iy, iz,
+                                                a, b, q...);
+    } else if constexpr (kDielectric) {
+      RoughDielectric<Dist, kLobes, kG, kValue, kPdf, A>(d, options.radiance, out.v0,
+                                                         kValue ? out.v1 : out.v0, ix, iy, iz, a, b, c, q...);
+    } else {
+      RoughReflector<Dist, Facets, kG, kValue, kPdf, A>(d, out.v0, out.v1, ix, iy, iz, a, b, c, q...);
+    }
+  }
+
   // Parameters come as (the distribution's, the facets') in the kernel list, and the other way round in the
   // lane functions. a, b, c: wo, or the random numbers.
   template <Accuracy A, class D, class... P>
   static HWY_INLINE void FacetsFirst(D d, const Options<D>& options, const Outputs<D>& out, Vec<D> ix,
                                      Vec<D> iy, Vec<D> iz, Vec<D> a, Vec<D> b, Vec<D> c, P... p) {
-    const auto run = [&](auto... q) HWY_ATTR {
-      if constexpr (kSamples && kDielectric) {
-        SampleRoughDielectric<Dist, kLobes, kG, A>(d, options.radiance, out.v0, out.v1, out.v2, out.v3,
-                                                   out.v4, out.v5, ix, iy, iz, a, b, c, q...);
-      } else if constexpr (kSamples) {
-        SampleRoughReflector<Dist, Facets, kG, A>(d, out.v0, out.v1, out.v2, out.v3, out.v4, out.v5, ix, iy,
-                                                  iz, a, b, q...);
-      } else if constexpr (kDielectric) {
-        RoughDielectric<Dist, kLobes, kG, kValue, kPdf, A>(
-            d, options.radiance, out.v0, kValue ? out.v1 : out.v0, ix, iy, iz, a, b, c, q...);
-      } else {
-        RoughReflector<Dist, Facets, kG, kValue, kPdf, A>(d, out.v0, out.v1, ix, iy, iz, a, b, c, q...);
-      }
-    };
-    RotateLeft<sizeof...(P) - Facets::kParameters>(run, p...);
+    RotateLeft<sizeof...(P) - Facets::kParameters, A>(d, options, out, ix, iy, iz, a, b, c, p...);
   }
 };
 
