@@ -10,6 +10,7 @@
 #include <cmath>
 #include <complex>
 #include <cstddef>
+#include <type_traits>
 #include <utility>
 
 #include "microlane/kernel_list.h"
@@ -395,11 +396,37 @@ inline bool Refract(const Vec3& wi, const Vec3& m, float eta, Vec3* wt) {
 
 enum Lobes { kReflection = 1, kTransmission = 2, kBoth = 3 };
 
-template <class Distribution, bool kSeparable>
+// Reflectances of facets, as functions of the cosine.
+struct DielectricFresnel {
+  float eta;
+  float operator()(float cos_theta_i) const { return FrDielectric(cos_theta_i, eta); }
+};
+struct MirrorFresnel {
+  explicit MirrorFresnel(const float*) {}
+  float operator()(float) const { return 1; }
+};
+struct ConductorFresnel {
+  std::complex<float> eta;
+  explicit ConductorFresnel(const float* parameters) : eta(parameters[0], parameters[1]) {}
+  float operator()(float cos_theta_i) const { return FrComplex(cos_theta_i, eta); }
+};
+struct SchlickFresnel {
+  float f0;
+  explicit SchlickFresnel(const float* parameters) : f0(parameters[0]) {}
+  float operator()(float cos_theta_i) const { return FrSchlick(cos_theta_i, f0); }
+};
+template <Reflector kReflector>
+using FresnelOf = std::conditional_t<
+    kReflector == Reflector::kMirror, MirrorFresnel,
+    std::conditional_t<kReflector == Reflector::kConductor, ConductorFresnel, SchlickFresnel>>;
+
+// eta is 1 of what only reflects.
+template <class Distribution, bool kSeparable, class Fresnel = DielectricFresnel>
 struct RoughDielectric {
   Distribution distribution;
   float eta;
   Transport transport;
+  Fresnel fresnel;
 
   struct Sample {
     Vec3 wo;
@@ -431,7 +458,7 @@ struct RoughDielectric {
     bool reflects;
     Vec3 wm;
     if (!HalfVector(wi, wo, lobes, &reflects, &wm)) return 0;
-    const float F = FrDielectric(Dot(wi, wm), eta);
+    const float F = fresnel(Dot(wi, wm));
     const float cos_i = AbsCosTheta(wi), cos_o = AbsCosTheta(wo);
     if (reflects) return distribution.D(wm) * G(wi, wo) * F / (4 * cos_i * cos_o) * cos_o;
     const float denominator = Sqr(Dot(wi, wm) + eta * Dot(wo, wm)) * cos_i * cos_o;
@@ -445,7 +472,7 @@ struct RoughDielectric {
     bool reflects;
     Vec3 wm;
     if (!HalfVector(wi, wo, lobes, &reflects, &wm)) return 0;
-    const float F = lobes == kBoth ? FrDielectric(Dot(wi, wm), eta) : reflects ? 1 : 0;
+    const float F = lobes == kBoth ? fresnel(Dot(wi, wm)) : reflects ? 1 : 0;
     const float pdf_wm = distribution.D(wm) * AbsCosTheta(wm);
     if (reflects) return F * pdf_wm / (4 * AbsDot(wo, wm));
     return (1 - F) * pdf_wm * Sqr(eta) * AbsDot(wo, wm) / Sqr(Dot(wi, wm) + eta * Dot(wo, wm));
@@ -458,7 +485,7 @@ struct RoughDielectric {
     const Vec3 wm = CosTheta(wi) < 0 ? -upper : upper;
     const float cos_i = Dot(wi, wm);
     if (!(cos_i > 0)) return kNone;
-    const float F = FrDielectric(cos_i, eta);
+    const float F = fresnel(cos_i);
     const float pdf_wm = distribution.D(upper) * AbsCosTheta(upper);
     const float pr = lobes == kBoth ? F : 1, pt = lobes == kBoth ? 1 - F : 1;
     Sample sample;
@@ -475,48 +502,6 @@ struct RoughDielectric {
     sample.weight = cos_i * G(wi, sample.wo) / (AbsCosTheta(wi) * AbsCosTheta(wm));
     if (lobes != kBoth) sample.weight *= sample.lobe == kReflection ? F : 1 - F;
     if (sample.lobe == kTransmission && transport == Transport::kImportance) sample.weight /= Sqr(eta);
-    return sample;
-  }
-};
-
-// pbrt-v4's conductor, and Schlick's approximation or 1 in place of its Fresnel.
-template <Reflector kReflector>
-float FacetReflectance(float cos_theta_i, const float* parameters) {
-  if constexpr (kReflector == Reflector::kMirror) return 1;
-  if constexpr (kReflector == Reflector::kConductor) {
-    return FrComplex(cos_theta_i, {parameters[0], parameters[1]});
-  }
-  return FrSchlick(cos_theta_i, parameters[0]);
-}
-
-template <class Distribution, Reflector kReflector, bool kSeparable>
-struct RoughReflector {
-  // As an interface that reflects alone, for its half vector, masking and sampling.
-  RoughDielectric<Distribution, kSeparable> base;
-  const float* facets;
-
-  float Eval(const Vec3& wi, const Vec3& wo) const {
-    bool reflects;
-    Vec3 wm;
-    if (!base.HalfVector(wi, wo, kReflection, &reflects, &wm)) return 0;
-    const float F = FacetReflectance<kReflector>(AbsDot(wi, wm), facets);
-    return base.distribution.D(wm) * F * base.G(wi, wo) / (4 * AbsCosTheta(wi) * AbsCosTheta(wo)) *
-           AbsCosTheta(wo);
-  }
-  auto SampleDirection(const Vec3& wi, float u1, float u2) const {
-    constexpr typename RoughDielectric<Distribution, kSeparable>::Sample kNone = {{0, 0, 0}, 0, 0, 0};
-    auto sample = kNone;
-    if (CosTheta(wi) == 0) return kNone;
-    const Vec3 upper = base.distribution.SampleNormal(u1, u2);
-    const Vec3 wm = CosTheta(wi) < 0 ? -upper : upper;
-    const float cos_i = Dot(wi, wm);
-    if (!(cos_i > 0)) return kNone;
-    sample.wo = Reflect(wi, wm);
-    if (!SameHemisphere(wi, sample.wo)) return kNone;
-    sample.lobe = kReflection;
-    sample.pdf = base.distribution.D(upper) * AbsCosTheta(upper) / (4 * AbsDot(sample.wo, wm));
-    sample.weight = FacetReflectance<kReflector>(cos_i, facets) * cos_i * base.G(wi, sample.wo) /
-                    (AbsCosTheta(wi) * AbsCosTheta(wm));
     return sample;
   }
 };
@@ -663,8 +648,9 @@ void Dielectric(const float* in, float* out, Transport transport) {
   constexpr int lobes = (row.reflects ? kReflection : 0) | (row.transmits ? kTransmission : 0);
   constexpr bool one_lobe_sampled = row.what == DielectricQuantity::kSample && !row.HasBothLobes();
   const float* const parameters = in + (one_lobe_sampled ? 5 : 6);
-  const RoughDielectric<Distribution, row.separable> bsdf{Distribution::Make(parameters),
-                                                          parameters[Distribution::kParameters], transport};
+  const float eta = parameters[Distribution::kParameters];
+  const RoughDielectric<Distribution, row.separable> bsdf{
+      Distribution::Make(parameters), eta, transport, {eta}};
   if constexpr (row.what == DielectricQuantity::kSample) {
     StoreSample(bsdf.SampleDirection(Load(in), in[3], in[4], one_lobe_sampled ? 0 : in[5], lobes), out);
   } else {
@@ -679,16 +665,16 @@ void Dielectric(const float* in, float* out, Transport transport) {
 template <class Distribution, std::size_t kPlace>
 void OpaqueSurface(const float* in, float* out, Transport transport) {
   constexpr DielectricQuantity row = kReflectorQuantities[kPlace % kNumReflectorQuantities];
-  constexpr auto reflector = static_cast<Reflector>(kPlace / kNumReflectorQuantities);
+  using Fresnel = FresnelOf<static_cast<Reflector>(kPlace / kNumReflectorQuantities)>;
   const float* const parameters = in + (row.what == DielectricQuantity::kSample ? 5 : 6);
-  const RoughReflector<Distribution, reflector, row.separable> surface{
-      {Distribution::Make(parameters), 1, transport}, parameters + Distribution::kParameters};
+  const RoughDielectric<Distribution, row.separable, Fresnel> surface{
+      Distribution::Make(parameters), 1, transport, Fresnel(parameters + Distribution::kParameters)};
   if constexpr (row.what == DielectricQuantity::kSample) {
-    StoreSample(surface.SampleDirection(Load(in), in[3], in[4]), out);
+    StoreSample(surface.SampleDirection(Load(in), in[3], in[4], 0, kReflection), out);
   } else {
-    out[0] = surface.Eval(Load(in), Load(in + 3));
+    out[0] = surface.Eval(Load(in), Load(in + 3), kReflection);
     if constexpr (row.what == DielectricQuantity::kEvalPdf) {
-      out[1] = surface.base.Pdf(Load(in), Load(in + 3), kReflection);
+      out[1] = surface.Pdf(Load(in), Load(in + 3), kReflection);
     }
   }
 }

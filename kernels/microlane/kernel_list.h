@@ -424,16 +424,16 @@ struct ModelFamily {
 inline constexpr ModelFamily kModelFamilies[] = {
     {"", "alpha_x alpha_y", "GGX: Walter 2007 Eqs. 33-36, stretched",
      {1, 20, 6500, 24, 0x1p20}, {1, 18, 6500, 24, 0x1p14}, {1, 14, 2400, 20, 40}, {1, 24, 6500, 32, 17},
-     {{1, 14, 2300, 20, 512}, {1, 21, 5000, 24, 0x1p14}, {1, 17, 5600, 22, 0x1p14}},
-     {{1, 14, 450, 16, 17}, {1, 14, 1000, 16, 17}, {1, 14, 450, 16, 17}}},
+     {{1, 14, 2300, 20, 250}, {1, 21, 5000, 24, 250}, {1, 17, 5600, 22, 4000}},
+     {{1, 14, 450, 16, 13}, {1, 14, 1000, 16, 13}, {1, 14, 450, 16, 13}}},
     {"_beckmann", "alpha_x alpha_y", "Beckmann: Walter 2007 Eqs. 25, 26, 28, 29, stretched",
      {1, 19, 6500, 24, 0x1p20}, {1, 18, 6500, 24, 0x1p14}, {1, 14, 2400, 20, 3500}, {1, 24, 6500, 32, 17},
-     {{1, 14, 3400, 20, 4096}, {1, 20, 5800, 24, 0x1p14}, {1, 17, 6500, 22, 0x1p14}},
-     {{1, 14, 450, 16, 17}, {1, 14, 1000, 16, 17}, {1, 14, 450, 16, 17}}},
+     {{1, 14, 3400, 20, 4096}, {1, 20, 5800, 24, 4500}, {1, 17, 6500, 22, 4800}},
+     {{1, 14, 450, 16, 13}, {1, 14, 1000, 16, 13}, {1, 14, 450, 16, 13}}},
     {"_phong", "exponent", "Phong: Walter 2007 Eqs. 27, 30-32",
      {1, 21, 6500, 24, 0x1p20}, {1, 20, 6500, 24, 0x1p14}, {1, 14, 2400, 20, 4200}, {1, 24, 4600, 32, 17},
-     {{1, 15, 4500, 20, 5000}, {1, 24, 7000, 24, 0x1p14}, {1, 17, 7000, 22, 0x1p14}},
-     {{1, 6, 2700, 8, 17}, {1, 6, 2700, 8, 17}, {1, 6, 2700, 8, 17}}},
+     {{1, 15, 4500, 20, 4800}, {1, 24, 7000, 24, 4800}, {1, 17, 7000, 22, 4800}},
+     {{1, 6, 2700, 8, 6}, {1, 6, 2700, 8, 6}, {1, 6, 2700, 8, 6}}},
 };
 // clang-format on
 
@@ -441,6 +441,7 @@ inline constexpr std::size_t kNumComponentKernels = std::size(kComponentKernels)
 inline constexpr std::size_t kNumDielectricQuantities = std::size(kDielectricQuantities);
 inline constexpr std::size_t kNumReflectorQuantities = std::size(kReflectorQuantities);
 inline constexpr std::size_t kNumModelFamilies = std::size(kModelFamilies);
+static_assert(kNumModelFamilies == std::size(kNormalFamilies), "both have a row for each of Normals");
 inline constexpr std::size_t kNumNormalRows = std::size(kNormalRows);
 
 constexpr std::size_t CountNormalKernels() {

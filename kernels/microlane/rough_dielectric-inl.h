@@ -518,30 +518,50 @@ HWY_NOINLINE void RoughSurfaceInDouble(D d, hn::Mask<D> radiance, Vec<D>& value,
       d, value, pdf, hn::IfThenElseZero(radiance, Const(d, 1)), in...);
 }
 
-// RoughSurfacePass, then what it found hard in double lanes. in: ix, iy, iz, ox, oy, oz, both parameters of
-// the interface, then the distribution's.
+// RoughSurfacePass, then what it found hard in double lanes. q0 and q1: parameters of Interface, 0 where it
+// has none.
 template <class Dist, class Interface, Lobes kLobes, JointMasking kG, bool kValue, bool kPdf, Accuracy A,
-          class D, class... In>
-HWY_INLINE void RoughSurface(D d, hn::Mask<D> radiance, Vec<D>& value, Vec<D>& pdf, In... in) {
+          class D, class... P>
+HWY_INLINE void RoughSurfaceOfBoth(D d, hn::Mask<D> radiance, Vec<D>& value, Vec<D>& pdf, Vec<D> ix,
+                                   Vec<D> iy, Vec<D> iz, Vec<D> ox, Vec<D> oy, Vec<D> oz, Vec<D> q0,
+                                   Vec<D> q1, P... p) {
   hn::Mask<D> hard = hn::MaskFromVec(hn::Zero(d));
   Vec<D> c2, s2, s2_tail;
-  RoughSurfacePass<Dist, Interface, kLobes, kG, kValue, kPdf, A>(d, radiance, value, pdf, hard,
-                                                                 FacetTerms<D>{c2, s2, s2_tail}, in...);
+  RoughSurfacePass<Dist, Interface, kLobes, kG, kValue, kPdf, A>(
+      d, radiance, value, pdf, hard, FacetTerms<D>{c2, s2, s2_tail}, ix, iy, iz, ox, oy, oz, q0, q1, p...);
   if (kIsFloat<D> && HWY_UNLIKELY(!hn::AllFalse(d, hard))) {
     Vec<D> hard_value, hard_pdf;
-    RoughSurfaceInDouble<Dist, Interface, kLobes, kG, kValue, kPdf>(d, radiance, hard_value, hard_pdf, in...);
+    RoughSurfaceInDouble<Dist, Interface, kLobes, kG, kValue, kPdf>(d, radiance, hard_value, hard_pdf, ix, iy,
+                                                                    iz, ox, oy, oz, q0, q1, p...);
     if constexpr (kValue) value = hn::IfThenElse(hard, hard_value, value);
     if constexpr (kPdf) pdf = hn::IfThenElse(hard, hard_pdf, pdf);
   }
 }
+template <class Dist, class Interface, Lobes kLobes, JointMasking kG, bool kValue, bool kPdf, Accuracy A,
+          class D, class... P>
+HWY_INLINE void RoughSurfaceOfOne(D d, hn::Mask<D> radiance, Vec<D>& value, Vec<D>& pdf, Vec<D> ix, Vec<D> iy,
+                                  Vec<D> iz, Vec<D> ox, Vec<D> oy, Vec<D> oz, Vec<D> q0, P... p) {
+  RoughSurfaceOfBoth<Dist, Interface, kLobes, kG, kValue, kPdf, A>(d, radiance, value, pdf, ix, iy, iz, ox,
+                                                                   oy, oz, q0, hn::Zero(d), p...);
+}
 
 // f |cos o| into `value` if kValue, the density of o into `pdf` if kPdf. `radiance`: mask of
-// Transport::kRadiance. p: the distribution's parameters.
-template <class Dist, Lobes kLobes, JointMasking kG, bool kValue, bool kPdf, Accuracy A, class D, class... P>
-HWY_INLINE void RoughDielectric(D d, hn::Mask<D> radiance, Vec<D>& value, Vec<D>& pdf, Vec<D> ix, Vec<D> iy,
-                                Vec<D> iz, Vec<D> ox, Vec<D> oy, Vec<D> oz, Vec<D> eta, P... p) {
-  RoughSurface<Dist, DielectricInterface, kLobes, kG, kValue, kPdf, A>(d, radiance, value, pdf, ix, iy, iz,
-                                                                       ox, oy, oz, eta, hn::Zero(d), p...);
+// Transport::kRadiance, of no effect in reflection. p: the parameters of Interface (DielectricInterface:
+// eta), then the distribution's.
+template <class Dist, class Interface, Lobes kLobes, JointMasking kG, bool kValue, bool kPdf, Accuracy A,
+          class D, class... P>
+HWY_INLINE void RoughSurface(D d, hn::Mask<D> radiance, Vec<D>& value, Vec<D>& pdf, Vec<D> ix, Vec<D> iy,
+                             Vec<D> iz, Vec<D> ox, Vec<D> oy, Vec<D> oz, P... p) {
+  if constexpr (Interface::kParameters == 0) {
+    RoughSurfaceOfBoth<Dist, Interface, kLobes, kG, kValue, kPdf, A>(d, radiance, value, pdf, ix, iy, iz, ox,
+                                                                     oy, oz, hn::Zero(d), hn::Zero(d), p...);
+  } else if constexpr (Interface::kParameters == 1) {
+    RoughSurfaceOfOne<Dist, Interface, kLobes, kG, kValue, kPdf, A>(d, radiance, value, pdf, ix, iy, iz, ox,
+                                                                    oy, oz, p...);
+  } else {
+    RoughSurfaceOfBoth<Dist, Interface, kLobes, kG, kValue, kPdf, A>(d, radiance, value, pdf, ix, iy, iz, ox,
+                                                                     oy, oz, p...);
+  }
 }
 
 // One pass of sampling. `hard` as in RoughSurfacePass.
@@ -666,18 +686,19 @@ HWY_NOINLINE void SampleRoughSurfaceInDouble(D d, hn::Mask<D> radiance, Vec<D>& 
       d, ox, oy, oz, weight, pdf, lobe, hn::IfThenElseZero(radiance, Const(d, 1)), in...);
 }
 
-// SampleRoughSurfacePass, then what it found hard in double lanes. in: ix, iy, iz, u1, u2, u3, both
-// parameters of the interface, then the distribution's.
-template <class Dist, class Interface, Lobes kLobes, JointMasking kG, Accuracy A, class D, class... In>
-HWY_INLINE void SampleRoughSurface(D d, hn::Mask<D> radiance, Vec<D>& ox, Vec<D>& oy, Vec<D>& oz,
-                                   Vec<D>& weight, Vec<D>& pdf, Vec<D>& lobe, In... in) {
+// SampleRoughSurfacePass, then what it found hard in double lanes. q0 and q1 as in RoughSurfaceOfBoth.
+template <class Dist, class Interface, Lobes kLobes, JointMasking kG, Accuracy A, class D, class... P>
+HWY_INLINE void SampleRoughSurfaceOfBoth(D d, hn::Mask<D> radiance, Vec<D>& ox, Vec<D>& oy, Vec<D>& oz,
+                                         Vec<D>& weight, Vec<D>& pdf, Vec<D>& lobe, Vec<D> ix, Vec<D> iy,
+                                         Vec<D> iz, Vec<D> u1, Vec<D> u2, Vec<D> u3, Vec<D> q0, Vec<D> q1,
+                                         P... p) {
   hn::Mask<D> hard = hn::MaskFromVec(hn::Zero(d));
-  SampleRoughSurfacePass<Dist, Interface, kLobes, kG, A>(d, radiance, ox, oy, oz, weight, pdf, lobe, hard,
-                                                         in...);
+  SampleRoughSurfacePass<Dist, Interface, kLobes, kG, A>(d, radiance, ox, oy, oz, weight, pdf, lobe, hard, ix,
+                                                         iy, iz, u1, u2, u3, q0, q1, p...);
   if (kIsFloat<D> && HWY_UNLIKELY(!hn::AllFalse(d, hard))) {
     Vec<D> ox_, oy_, oz_, weight_, pdf_, lobe_;
     SampleRoughSurfaceInDouble<Dist, Interface, kLobes, kG>(d, radiance, ox_, oy_, oz_, weight_, pdf_, lobe_,
-                                                            in...);
+                                                            ix, iy, iz, u1, u2, u3, q0, q1, p...);
     ox = hn::IfThenElse(hard, ox_, ox);
     oy = hn::IfThenElse(hard, oy_, oy);
     oz = hn::IfThenElse(hard, oz_, oz);
@@ -686,16 +707,31 @@ HWY_INLINE void SampleRoughSurface(D d, hn::Mask<D> radiance, Vec<D>& ox, Vec<D>
     lobe = hn::IfThenElse(hard, lobe_, lobe);
   }
 }
+template <class Dist, class Interface, Lobes kLobes, JointMasking kG, Accuracy A, class D, class... P>
+HWY_INLINE void SampleRoughSurfaceOfOne(D d, hn::Mask<D> radiance, Vec<D>& ox, Vec<D>& oy, Vec<D>& oz,
+                                        Vec<D>& weight, Vec<D>& pdf, Vec<D>& lobe, Vec<D> ix, Vec<D> iy,
+                                        Vec<D> iz, Vec<D> u1, Vec<D> u2, Vec<D> u3, Vec<D> q0, P... p) {
+  SampleRoughSurfaceOfBoth<Dist, Interface, kLobes, kG, A>(d, radiance, ox, oy, oz, weight, pdf, lobe, ix, iy,
+                                                           iz, u1, u2, u3, q0, hn::Zero(d), p...);
+}
 
 // Walter 2007 section 5.3: m by Dist's D cos sampling, o by Eq. 39 or 40, the weight by Eq. 41. With both
-// lobes u3 chooses by Fresnel, else it has no effect and the weight carries F or 1 - F. p: the distribution's
-// parameters.
-template <class Dist, Lobes kLobes, JointMasking kG, Accuracy A, class D, class... P>
-HWY_INLINE void SampleRoughDielectric(D d, hn::Mask<D> radiance, Vec<D>& ox, Vec<D>& oy, Vec<D>& oz,
-                                      Vec<D>& weight, Vec<D>& pdf, Vec<D>& lobe, Vec<D> ix, Vec<D> iy,
-                                      Vec<D> iz, Vec<D> u1, Vec<D> u2, Vec<D> u3, Vec<D> eta, P... p) {
-  SampleRoughSurface<Dist, DielectricInterface, kLobes, kG, A>(d, radiance, ox, oy, oz, weight, pdf, lobe, ix,
-                                                               iy, iz, u1, u2, u3, eta, hn::Zero(d), p...);
+// lobes u3 chooses by Fresnel, else it has no effect and the weight carries F or 1 - F. p: the parameters of
+// Interface, then the distribution's.
+template <class Dist, class Interface, Lobes kLobes, JointMasking kG, Accuracy A, class D, class... P>
+HWY_INLINE void SampleRoughSurface(D d, hn::Mask<D> radiance, Vec<D>& ox, Vec<D>& oy, Vec<D>& oz,
+                                   Vec<D>& weight, Vec<D>& pdf, Vec<D>& lobe, Vec<D> ix, Vec<D> iy, Vec<D> iz,
+                                   Vec<D> u1, Vec<D> u2, Vec<D> u3, P... p) {
+  if constexpr (Interface::kParameters == 0) {
+    SampleRoughSurfaceOfBoth<Dist, Interface, kLobes, kG, A>(
+        d, radiance, ox, oy, oz, weight, pdf, lobe, ix, iy, iz, u1, u2, u3, hn::Zero(d), hn::Zero(d), p...);
+  } else if constexpr (Interface::kParameters == 1) {
+    SampleRoughSurfaceOfOne<Dist, Interface, kLobes, kG, A>(d, radiance, ox, oy, oz, weight, pdf, lobe, ix,
+                                                            iy, iz, u1, u2, u3, p...);
+  } else {
+    SampleRoughSurfaceOfBoth<Dist, Interface, kLobes, kG, A>(d, radiance, ox, oy, oz, weight, pdf, lobe, ix,
+                                                             iy, iz, u1, u2, u3, p...);
+  }
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Opaque rough surfaces in lanes, over a distribution policy (Ggx, Beckmann, Phong) and what their facets
-// reflect: Walter 2007 Eq. 20 with the Fresnel factors of conductor-inl.h.
+// Facets of opaque rough surfaces in lanes, for RoughSurface and SampleRoughSurface with Lobes::kReflection:
+// Walter 2007 Eq. 20 with the Fresnel factors of conductor-inl.h.
 #if defined(MICROLANE_ROUGH_REFLECTOR_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef MICROLANE_ROUGH_REFLECTOR_INL_H_
 #undef MICROLANE_ROUGH_REFLECTOR_INL_H_
@@ -100,31 +100,6 @@ struct SchlickFacets {
   }
 };
 
-// Run(q0, q1, rest...) with zeros in place of the parameters that Facets has not.
-template <class Facets, class D, class F, class... P>
-HWY_INLINE void WithBothParameters(D d, F run, P... p) {
-  if constexpr (Facets::kParameters == 0) {
-    run(hn::Zero(d), hn::Zero(d), p...);
-  } else if constexpr (Facets::kParameters == 1) {
-    const auto one = [&](auto q, auto... rest) HWY_ATTR { run(q, hn::Zero(d), rest...); };
-    one(p...);
-  } else {
-    run(p...);
-  }
-}
-
-// f |cos o| into `value` if kValue, the density of o into `pdf` if kPdf. p: the parameters of Facets, then
-// the distribution's.
-template <class Dist, class Facets, JointMasking kG, bool kValue, bool kPdf, Accuracy A, class D, class... P>
-HWY_INLINE void RoughReflector(D d, Vec<D>& value, Vec<D>& pdf, Vec<D> ix, Vec<D> iy, Vec<D> iz, Vec<D> ox,
-                               Vec<D> oy, Vec<D> oz, P... p) {
-  const auto run = [&](auto... all) HWY_ATTR {
-    RoughSurface<Dist, Facets, Lobes::kReflection, kG, kValue, kPdf, A>(
-        d, hn::MaskFromVec(hn::Zero(d)), value, pdf, ix, iy, iz, ox, oy, oz, all...);
-  };
-  WithBothParameters<Facets>(d, run, p...);
-}
-
 // f |cos o| of several channels, float lanes: D and G2 once, F for each. parameter(c, k) gives parameter k of
 // channel c's Facets, store(c, f) takes its value. p: the distribution's parameters. Not for kHigh.
 template <class Dist, class Facets, JointMasking kG, Accuracy A, class D, class Parameter, class Store,
@@ -157,20 +132,6 @@ HWY_INLINE void RoughReflectorChannels(D d, std::size_t channels, const Paramete
     }
     store(channel, value);
   }
-}
-
-// m by Dist's D cos sampling, o by Walter 2007 Eq. 39, the weight by Eq. 41. p: the parameters of Facets,
-// then the distribution's.
-template <class Dist, class Facets, JointMasking kG, Accuracy A, class D, class... P>
-HWY_INLINE void SampleRoughReflector(D d, Vec<D>& ox, Vec<D>& oy, Vec<D>& oz, Vec<D>& weight, Vec<D>& pdf,
-                                     Vec<D>& lobe, Vec<D> ix, Vec<D> iy, Vec<D> iz, Vec<D> u1, Vec<D> u2,
-                                     P... p) {
-  const auto run = [&](auto... all) HWY_ATTR {
-    SampleRoughSurface<Dist, Facets, Lobes::kReflection, kG, A>(d, hn::MaskFromVec(hn::Zero(d)), ox, oy, oz,
-                                                                weight, pdf, lobe, ix, iy, iz, u1, u2,
-                                                                hn::Zero(d), all...);
-  };
-  WithBothParameters<Facets>(d, run, p...);
 }
 // NOLINTEND(misc-const-correctness)
 

@@ -64,7 +64,8 @@ class RoughReflectorLanes {
                    JointMasking masking = JointMasking::kHeightCorrelated);
 
   // Eval for `channels` wavelengths: facets and output of each. Conductors and Schlick's facets share one D
-  // and G2 in kStandard and kFast lanes of float; errors are those of eval, eval_separable.
+  // and G2 in kStandard and kFast lanes of float; errors are those of eval, eval_separable. No output may
+  // overlap an input.
   static void EvalChannels(std::size_t n, const Directions<T>& wi, const Directions<T>& wo,
                            const RoughnessOf<kNormals, T>& roughness, std::size_t channels,
                            const FacetParameters<kReflector, T>* facets, T* const* f_cos,

@@ -70,6 +70,13 @@ HWY_NOINLINE Vec<D> Totalize(D d, Vec<D> y, V... in) {
 }
 
 template <class D, class... V>
+HWY_INLINE hn::Mask<D> AnyNan(D d, V... v) {
+  auto any = hn::MaskFromVec(hn::Zero(d));
+  ((any = hn::Or(any, hn::IsNaN(v))), ...);
+  return any;
+}
+
+template <class D, class... V>
 HWY_INLINE void StoreTotal(D d, Vec<D> y, T<D>* to, V... in) {
   if (HWY_UNLIKELY(AnyNonFinite(d, y))) y = Totalize(d, y, in...);
   hn::StoreU(y, d, to);
@@ -123,8 +130,7 @@ HWY_INLINE void Loop(D d, const Call<T<D>>& call, std::size_t n, std::index_sequ
     K::template Eval<A>(d, options, Outputs<D>{o0, o1, o2, o3, o4, o5}, v...);
     if constexpr (!kPassesNan<K>) {
       const Vec<D> nan = hn::Set(d, std::numeric_limits<TD>::quiet_NaN());
-      auto any = hn::MaskFromVec(hn::Zero(d));
-      ((any = hn::Or(any, hn::IsNaN(v))), ...);
+      const auto any = AnyNan(d, v...);
       o0 = hn::IfThenElse(any, nan, o0);
       o1 = hn::IfThenElse(any, nan, o1);
       o2 = hn::IfThenElse(any, nan, o2);

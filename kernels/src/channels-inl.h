@@ -50,17 +50,16 @@ HWY_NOINLINE void ChannelLoop(const ChannelCall<kReflector>& call, std::size_t n
       return load(p.data(), p.uniform());
     };
     const auto evaluate = [&](auto... in) HWY_ATTR {
-      V input_sum = zero;  // NaN where an input is
-      ((input_sum = hn::MulAdd(in, zero, input_sum)), ...);
+      const auto any_nan = AnyNan(d, in...);
       const auto store = [&](std::size_t channel, V value) HWY_ATTR {
-        V sum = hn::MulAdd(parameter(channel, 0), zero, input_sum);  // NOLINT(misc-const-correctness)
-        if constexpr (Facets::kParameters > 1) sum = hn::MulAdd(parameter(channel, 1), zero, sum);
-        value = hn::IfThenElse(hn::IsNaN(sum), sum, value);
-        if (HWY_UNLIKELY(AnyNonFinite(d, value))) value = Totalize(d, value, sum);
+        const V q0 = parameter(channel, 0);
+        const V q1 = Facets::kParameters > 1 ? parameter(channel, 1) : zero;
+        const V nan = hn::Set(d, std::numeric_limits<float>::quiet_NaN());
+        value = hn::IfThenElse(hn::Or(any_nan, AnyNan(d, q0, q1)), nan, value);
         if (count == lanes) {
-          hn::StoreU(value, d, call.out[channel] + i);
+          StoreTotal(d, value, call.out[channel] + i, in..., q0, q1);
         } else {
-          hn::Store(value, d, buffer);
+          StoreTotal(d, value, buffer, in..., q0, q1);
           StoreTail(d, buffer, call.out[channel] + i, count);
         }
       };
@@ -72,10 +71,10 @@ HWY_NOINLINE void ChannelLoop(const ChannelCall<kReflector>& call, std::size_t n
   }
 }
 
-// kParameters: how many the distribution has.
-template <class Dist, Reflector kReflector, std::size_t kParameters>
+template <class Dist, Normals kNormals, Reflector kReflector>
 void RunChannels(const ChannelCall<kReflector>& call, std::size_t n) {
-  constexpr auto roughness = std::make_index_sequence<kParameters>();
+  constexpr auto roughness =
+      std::make_index_sequence<Split(kModelFamilies[static_cast<std::size_t>(kNormals)].parameters).count>();
   constexpr JointMasking kCorrelated = JointMasking::kHeightCorrelated, kSeparable = JointMasking::kSeparable;
   const bool fast = call.accuracy == Accuracy::kFast;
   if (call.separable) {
@@ -85,6 +84,12 @@ void RunChannels(const ChannelCall<kReflector>& call, std::size_t n) {
     fast ? ChannelLoop<Dist, kReflector, kCorrelated, Accuracy::kFast>(call, n, roughness)
          : ChannelLoop<Dist, kReflector, kCorrelated, Accuracy::kStandard>(call, n, roughness);
   }
+}
+
+template <class Dist, Normals kNormals>
+ChannelCode Channels() {
+  return {RunChannels<Dist, kNormals, Reflector::kConductor>,
+          RunChannels<Dist, kNormals, Reflector::kSchlick>};
 }
 
 }  // namespace

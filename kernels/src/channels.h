@@ -22,11 +22,28 @@ struct ChannelCall {
 using ConductorChannels = ChannelCall<Reflector::kConductor>;
 using SchlickChannels = ChannelCall<Reflector::kSchlick>;
 
-// On the chosen target.
+// One distribution's on one target.
+struct ChannelCode {
+  void (*conductors)(const ConductorChannels&, std::size_t);
+  void (*schlick)(const SchlickChannels&, std::size_t);
+};
+using ChannelFunction = ChannelCode (*)();
+
 template <Normals kNormals>
-void RunOnTarget(const ConductorChannels& call, std::size_t n);
-template <Normals kNormals>
-void RunOnTarget(const SchlickChannels& call, std::size_t n);
+const ChannelFunction* ChannelTable();
+template <>
+const ChannelFunction* ChannelTable<Normals::kGgx>();
+template <>
+const ChannelFunction* ChannelTable<Normals::kBeckmann>();
+template <>
+const ChannelFunction* ChannelTable<Normals::kPhong>();
+
+inline void Run(const ChannelCode& code, const ConductorChannels& call, std::size_t n) {
+  code.conductors(call, n);
+}
+inline void Run(const ChannelCode& code, const SchlickChannels& call, std::size_t n) {
+  code.schlick(call, n);
+}
 
 }  // namespace microlane
 

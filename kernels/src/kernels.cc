@@ -1,8 +1,8 @@
 #include "microlane/kernels.h"
 
 #include <array>
-#include <iterator>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include "microlane/kernel_list.h"
@@ -11,39 +11,31 @@
 namespace microlane {
 namespace {
 
-// The tables of all distributions, in the order of Normals.
-template <std::size_t... kNormals>
-const FamilyFunction* NormalsTableOf(std::size_t normals, std::index_sequence<kNormals...>) {
-  const FamilyFunction* table = nullptr;
-  ((normals == kNormals ? void(table = NormalsTable<static_cast<Normals>(kNormals)>()) : void()), ...);
-  return table;
-}
-template <std::size_t... kNormals>
-const FamilyFunction* RoughDielectricTableOf(std::size_t normals, std::index_sequence<kNormals...>) {
-  const FamilyFunction* table = nullptr;
-  ((normals == kNormals ? void(table = RoughDielectricTable<static_cast<Normals>(kNormals)>()) : void()),
+// table(a constant) of the distribution with that number in Normals.
+template <class Table, std::size_t... kNormals>
+const FamilyFunction* OfNormals(std::size_t normals, std::index_sequence<kNormals...>, const Table& table) {
+  const FamilyFunction* found = nullptr;
+  ((normals == kNormals
+        ? void(found = table(std::integral_constant<Normals, static_cast<Normals>(kNormals)>()))
+        : void()),
    ...);
-  return table;
-}
-template <std::size_t... kNormals>
-const FamilyFunction* RoughReflectorTableOf(std::size_t normals, std::index_sequence<kNormals...>) {
-  const FamilyFunction* table = nullptr;
-  ((normals == kNormals ? void(table = RoughReflectorTable<static_cast<Normals>(kNormals)>()) : void()), ...);
-  return table;
+  return found;
 }
 
 const FamilyFunction* TableOf(std::size_t kernel) {
   constexpr auto families = std::make_index_sequence<kNumModelFamilies>();
   if (kernel >= kFirstReflectorKernel) {
-    return RoughReflectorTableOf(static_cast<std::size_t>(PlaceOfReflectorKernel(kernel).normals), families);
+    return OfNormals(static_cast<std::size_t>(PlaceOfReflectorKernel(kernel).normals), families,
+                     [](auto normals) { return RoughReflectorTable<decltype(normals)::value>(); });
   }
   if (kernel >= kFirstDielectricKernel) {
-    return RoughDielectricTableOf((kernel - kFirstDielectricKernel) / kNumDielectricQuantities, families);
+    return OfNormals((kernel - kFirstDielectricKernel) / kNumDielectricQuantities, families,
+                     [](auto normals) { return RoughDielectricTable<decltype(normals)::value>(); });
   }
   if (kernel >= kNumComponentKernels) {
     const NormalRow& row = kNormalRows[kNormalKernelPlaces[kernel - kNumComponentKernels].row];
-    return NormalsTableOf(static_cast<std::size_t>(row.normals),
-                          std::make_index_sequence<std::size(kNormalFamilies)>());
+    return OfNormals(static_cast<std::size_t>(row.normals), families,
+                     [](auto normals) { return NormalsTable<decltype(normals)::value>(); });
   }
   const std::string_view id = kKernels[kernel].id;
   const std::string_view family = id.substr(0, id.find('.'));

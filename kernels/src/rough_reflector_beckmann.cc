@@ -12,13 +12,7 @@ namespace HWY_NAMESPACE {
 namespace {
 
 FamilyCode FamilyOnTarget() { return RoughReflectorFamily<Beckmann, Normals::kBeckmann>(); }
-
-void ConductorsOnTarget(const ConductorChannels& call, std::size_t n) {
-  RunChannels<Beckmann, Reflector::kConductor, 2>(call, n);
-}
-void SchlickOnTarget(const SchlickChannels& call, std::size_t n) {
-  RunChannels<Beckmann, Reflector::kSchlick, 2>(call, n);
-}
+ChannelCode ChannelsOnTarget() { return Channels<Beckmann, Normals::kBeckmann>(); }
 
 }  // namespace
 }  // namespace HWY_NAMESPACE
@@ -33,18 +27,11 @@ template <>
 const FamilyFunction* RoughReflectorTable<Normals::kBeckmann>() {
   return HWY_DISPATCH_TABLE(FamilyOnTarget);
 }
-
-HWY_EXPORT(ConductorsOnTarget);
-HWY_EXPORT(SchlickOnTarget);
+HWY_EXPORT(ChannelsOnTarget);
 template <>
-void RunOnTarget<Normals::kBeckmann>(const ConductorChannels& call, std::size_t n) {
-  HWY_DISPATCH_TABLE(ConductorsOnTarget)[ChosenTableIndex()](call, n);
+const ChannelFunction* ChannelTable<Normals::kBeckmann>() {
+  return HWY_DISPATCH_TABLE(ChannelsOnTarget);
 }
-template <>
-void RunOnTarget<Normals::kBeckmann>(const SchlickChannels& call, std::size_t n) {
-  HWY_DISPATCH_TABLE(SchlickOnTarget)[ChosenTableIndex()](call, n);
-}
-
 template class RoughReflectorLanes<Normals::kBeckmann, Reflector::kMirror, float>;
 template class RoughReflectorLanes<Normals::kBeckmann, Reflector::kMirror, double>;
 template class RoughReflectorLanes<Normals::kBeckmann, Reflector::kConductor, float>;

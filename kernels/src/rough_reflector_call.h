@@ -90,7 +90,7 @@ void RoughReflectorLanes<kNormals, kReflector, T>::EvalChannels(
                                    facets,
                                    f_cos};
       AddRoughness(roughness, call);
-      RunOnTarget<kNormals>(call, n);
+      microlane::Run(ChannelTable<kNormals>()[ChosenTableIndex()](), call, n);
       return;
     }
   }

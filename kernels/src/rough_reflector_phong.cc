@@ -12,13 +12,7 @@ namespace HWY_NAMESPACE {
 namespace {
 
 FamilyCode FamilyOnTarget() { return RoughReflectorFamily<Phong, Normals::kPhong>(); }
-
-void ConductorsOnTarget(const ConductorChannels& call, std::size_t n) {
-  RunChannels<Phong, Reflector::kConductor, 1>(call, n);
-}
-void SchlickOnTarget(const SchlickChannels& call, std::size_t n) {
-  RunChannels<Phong, Reflector::kSchlick, 1>(call, n);
-}
+ChannelCode ChannelsOnTarget() { return Channels<Phong, Normals::kPhong>(); }
 
 }  // namespace
 }  // namespace HWY_NAMESPACE
@@ -33,18 +27,11 @@ template <>
 const FamilyFunction* RoughReflectorTable<Normals::kPhong>() {
   return HWY_DISPATCH_TABLE(FamilyOnTarget);
 }
-
-HWY_EXPORT(ConductorsOnTarget);
-HWY_EXPORT(SchlickOnTarget);
+HWY_EXPORT(ChannelsOnTarget);
 template <>
-void RunOnTarget<Normals::kPhong>(const ConductorChannels& call, std::size_t n) {
-  HWY_DISPATCH_TABLE(ConductorsOnTarget)[ChosenTableIndex()](call, n);
+const ChannelFunction* ChannelTable<Normals::kPhong>() {
+  return HWY_DISPATCH_TABLE(ChannelsOnTarget);
 }
-template <>
-void RunOnTarget<Normals::kPhong>(const SchlickChannels& call, std::size_t n) {
-  HWY_DISPATCH_TABLE(SchlickOnTarget)[ChosenTableIndex()](call, n);
-}
-
 template class RoughReflectorLanes<Normals::kPhong, Reflector::kMirror, float>;
 template class RoughReflectorLanes<Normals::kPhong, Reflector::kMirror, double>;
 template class RoughReflectorLanes<Normals::kPhong, Reflector::kConductor, float>;

@@ -40,52 +40,36 @@ struct RoughSurfaceKernel {
                                      kLobes != Lobes::kTransmission && HWY_ARCH_X86 &&
                                      HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128;
 
+  // Parameters come as (the distribution's, the facets') in the kernel list, and the other way round in the
+  // lane functions.
+  static constexpr std::size_t kRoughness =
+      Split(kKernels[kKernel].inputs).count - Split(kKernels[kKernel].inputs).per_lane - Facets::kParameters;
+
   template <Accuracy A, class D, class... V>
   static HWY_INLINE void Eval(D d, const Options<D>& options, const Outputs<D>& out, Vec<D> ix, Vec<D> iy,
                               Vec<D> iz, Vec<D> a, Vec<D> b, V... rest) {
     if constexpr (kSamples && kLobes != Lobes::kBoth) {
-      FacetsFirst<A>(d, options, out, ix, iy, iz, a, b, hn::Zero(d), rest...);
+      FacetsFirst<kRoughness, A>(d, options, out, ix, iy, iz, a, b, hn::Zero(d), rest...);
     } else {
-      FacetsFirst<A>(d, options, out, ix, iy, iz, a, b, rest...);
+      FacetsFirst<kRoughness, A>(d, options, out, ix, iy, iz, a, b, rest...);
     }
   }
 
  private:
-  // Calls Run with what stands behind the first kCount parameters, then those. No lambda, whose captures
-  // would go through memory.
+  // Brings the first kCount parameters behind the others. a, b, c: wo, or the random numbers.
   template <std::size_t kCount, Accuracy A, class D, class... P>
-  static HWY_INLINE void RotateLeft(D d, const Options<D>& options, const Outputs<D>& out, Vec<D> ix,
-                                    Vec<D> iy, Vec<D> iz, Vec<D> a, Vec<D> b, Vec<D> c, Vec<D> first,
-                                    P... p) {
-    if constexpr (kCount == 0) {
-      Run<A>(d, options, out, ix, iy, iz, a, b, c, first, p...);
-    } else {
-      RotateLeft<kCount - 1, A>(d, options, out, ix, iy, iz, a, b, c, p..., first);
-    }
-  }
-  template <Accuracy A, class D, class... Q>
-  static HWY_INLINE void Run(D d, const Options<D>& options, const Outputs<D>& out, Vec<D> ix, Vec<D> iy,
-                             Vec<D> iz, Vec<D> a, Vec<D> b, Vec<D> c, Q... q) {
-    if constexpr (kSamples && kDielectric) {
-      SampleRoughDielectric<Dist, kLobes, kG, A>(d, options.radiance, out.v0, out.v1, out.v2, out.v3, out.v4,
-                                                 out.v5, ix, iy, iz, a, b, c, q...);
-    } else if constexpr (kSamples) {
-      SampleRoughReflector<Dist, Facets, kG, A>(d, out.v0, out.v1, out.v2, out.v3, out.v4, out.v5, ix, iy, iz,
-                                                a, b, q...);
-    } else if constexpr (kDielectric) {
-      RoughDielectric<Dist, kLobes, kG, kValue, kPdf, A>(d, options.radiance, out.v0,
-                                                         kValue ? out.v1 : out.v0, ix, iy, iz, a, b, c, q...);
-    } else {
-      RoughReflector<Dist, Facets, kG, kValue, kPdf, A>(d, out.v0, out.v1, ix, iy, iz, a, b, c, q...);
-    }
-  }
-
-  // Parameters come as (the distribution's, the facets') in the kernel list, and the other way round in the
-  // lane functions. a, b, c: wo, or the random numbers.
-  template <Accuracy A, class D, class... P>
   static HWY_INLINE void FacetsFirst(D d, const Options<D>& options, const Outputs<D>& out, Vec<D> ix,
-                                     Vec<D> iy, Vec<D> iz, Vec<D> a, Vec<D> b, Vec<D> c, P... p) {
-    RotateLeft<sizeof...(P) - Facets::kParameters, A>(d, options, out, ix, iy, iz, a, b, c, p...);
+                                     Vec<D> iy, Vec<D> iz, Vec<D> a, Vec<D> b, Vec<D> c, Vec<D> first,
+                                     P... p) {
+    if constexpr (kCount > 0) {
+      FacetsFirst<kCount - 1, A>(d, options, out, ix, iy, iz, a, b, c, p..., first);
+    } else if constexpr (kSamples) {
+      SampleRoughSurface<Dist, Facets, kLobes, kG, A>(d, options.radiance, out.v0, out.v1, out.v2, out.v3,
+                                                      out.v4, out.v5, ix, iy, iz, a, b, c, first, p...);
+    } else {
+      RoughSurface<Dist, Facets, kLobes, kG, kValue, kPdf, A>(
+          d, options.radiance, out.v0, kValue ? out.v1 : out.v0, ix, iy, iz, a, b, c, first, p...);
+    }
   }
 };
 

@@ -96,16 +96,20 @@ inline void VisibleSlope(const Real& z, const Real& r, const Real& u, Real& t, R
   t = (low + high) / 2;
   // So near the end that doubles do not see it: the part below t is (z + r t)^2 exp(-a^2) / r there.
   if (t < 0 && z + r * t < 1e-6 * r) t = (sqrt((1 - u) * whole * exp(a * a) * r) - z) / r;
+  Real upper, exp_t2;
   for (int i = 0; i < 12; ++i) {
     reach = z + r * t;
-    const Real h = (above(t) - u * whole) * exp(t * t) / (2 * reach);
+    upper = above(t);
+    exp_t2 = exp(t * t);
+    const Real h = (upper - u * whole) * exp_t2 / (2 * reach);
     const Real step = h / (1 + h * (r / reach - 2 * t) / 2);
     t += step;
-    if (abs(step) < 1e-40 * (reach < r ? Real(reach / r) : Real(1))) break;
+    if (abs(step) < 1e-14 * (reach < r ? Real(reach / r) : Real(1))) break;
   }
+  // As of the last step's t, for a unit of error.
+  const Real lower = whole - upper + r / exp_t2;
+  spread = (upper < lower ? upper : lower) * exp_t2 / (2 * reach);
   reach = z + r * t;
-  const Real upper = above(t), lower = whole - upper + r * exp(-t * t);
-  spread = (upper < lower ? upper : lower) * exp(t * t) / (2 * reach);
 }
 
 inline BeckmannNormal VisibleNormal(const Beckmann& beckmann, const Vec& v, const Real& u1, const Real& u2) {

@@ -87,6 +87,7 @@ inline Real ErfInv(const Real& uniform) {
   for (int i = 0; i < 3; ++i) {
     const Real h = (erfc(y) - p) * exp(y * y) * SqrtPi() / 2;
     y += h / (1 - y * h);
+    if (abs(h) < 1e-14) break;
   }
   return u < 0.5 ? Real(-y) : y;
 }

@@ -26,6 +26,9 @@ struct Facet {
   Wide<Real> cos2_i;      // (wi.h)^2
   double cos_h;           // h.n
   double cos_i, cos_o;    // |wi.h|, |wo.h|
+
+  // cos |dh/do| of Walter 2007 Eqs. 24 and 38, by the first forms of Eqs. 14 and 17 less eta^2.
+  double DensityFactor() const { return cos_h * (cos_o / Narrow<double>(length2)); }
 };
 
 // kNoLobe where wi or wo grazes exactly or where a side of Walter 2007 Eq. 7 disagrees.
@@ -49,6 +52,13 @@ Facet<Real> FindFacet(const Vec3<Real>& wi, const Vec3<Real>& wo, Real eta) {
   facet.cos_i = std::abs(Narrow<double>(i_dot)) * inverse;
   facet.cos_o = std::abs(Narrow<double>(o_dot)) * inverse;
   return facet;
+}
+
+// Walter 2007 Eq. 41 of the normal m, cos_i = |wi.m|.
+template <Masking masking, template <class> class Distribution, class Real>
+double SampledWeight(const Distribution<Real>& distribution, const Vec3<Real>& wi, const Vec3<Real>& wo,
+                     double cos_i, const Vec3<double>& m) {
+  return cos_i * G2OverCos<masking>(distribution, wi, wo) / m.z;
 }
 
 template <class Real>
@@ -117,10 +127,9 @@ struct RoughDielectric {
 
     DirectionSample<Real> sample{Narrow<Real>(wo), 0, 0, lobe};
     const double cos_i = Narrow<double>(c);
-    const double g2_over_cos = G2OverCos<masking>(distribution, wi, sample.wo);
     const double share = lobe == kReflection ? fresnel.Reflectance() : fresnel.Transmittance();
-    // Walter 2007 Eq. 41.
-    double weight = cos_i * g2_over_cos / normal.m.z * (chooses ? 1 : share);
+    double weight =
+        SampledWeight<masking>(distribution, wi, sample.wo, cos_i, normal.m) * (chooses ? 1 : share);
     if (lobe == kTransmission && transport == Transport::kImportance) weight /= double{eta} * eta;
     sample.weight = Saturate<Real>(weight);
     sample.pdf = Saturate<Real>(SampledPdf((chooses ? share : 1) * normal.pdf, lobe, cos_i, fresnel));
@@ -152,10 +161,9 @@ struct RoughDielectric {
     return Saturate<Real>(distribution.DOfHalf(facet.half, scale * factor * facet.cos_i * jacobian));
   }
 
-  // Walter 2007 Eqs. 24 and 38 with the first forms of Eqs. 14 and 17.
   Real Pdf(const Vec3<Real>& wi, const Vec3<Real>& wo, const Facet<Real>& facet, Lobes wanted) const {
     if ((facet.lobe & wanted) == 0) return 0;
-    double factor = facet.cos_h * (facet.cos_o / Narrow<double>(facet.length2));
+    double factor = facet.DensityFactor();
     if (facet.lobe == kTransmission) factor *= double{eta} * eta;
     if (wanted == kBothLobes) factor *= Choice(wi, wo, facet);
     return Saturate<Real>(distribution.DOfHalf(facet.half, factor));

@@ -64,23 +64,17 @@ struct RoughReflector {
   Facets<Real> facets;
 
   // f |wo.n|.
-  Real Eval(const Vec3<Real>& wi, const Vec3<Real>& wo) const { return EvalAndPdf(wi, wo).f_cos; }
+  Real Eval(const Vec3<Real>& wi, const Vec3<Real>& wo) const {
+    if (AnyNan(wi, wo, distribution, facets)) return kNan<Real>;
+    return Eval(wi, wo, FindFacet(wi, wo, Real(1)));
+  }
 
   // With the density of wo for D cos sampling of normals, Walter 2007 Eqs. 24 and 38.
   EvalPdf<Real> EvalAndPdf(const Vec3<Real>& wi, const Vec3<Real>& wo) const {
     if (AnyNan(wi, wo, distribution, facets)) return {kNan<Real>, kNan<Real>};
     const Facet<Real> facet = FindFacet(wi, wo, Real(1));
     if (facet.lobe != kReflection) return {0, 0};
-    double reflectance = facets.Reflectance(facet.cos2_i);
-    if constexpr (std::is_same_v<Real, float>) {
-      if (facets.NeedsDigits(facet.cos2_i)) {
-        reflectance = facets.Widened().Reflectance(FindFacet(Widen(wi), Widen(wo), 1.0).cos2_i);
-      }
-    }
-    const double factor = reflectance * G2OverCos<masking>(distribution, wi, wo) / 4;
-    return {Saturate<Real>(distribution.DOfHalf(facet.half, factor)),
-            Saturate<Real>(distribution.DOfHalf(
-                facet.half, facet.cos_h * (facet.cos_o / Narrow<double>(facet.length2))))};
+    return {Eval(wi, wo, facet), Saturate<Real>(distribution.DOfHalf(facet.half, facet.DensityFactor()))};
   }
 
   // Walter 2007 section 5.3, with Eq. 41 for the weight.
@@ -101,10 +95,23 @@ struct RoughReflector {
     if (!(side * wo.z > W(0))) return none;
     DirectionSample<Real> sample{Narrow<Real>(wo), 0, 0, kReflection};
     const double cos_i = Narrow<double>(c);
-    sample.weight = Saturate<Real>(cos_i * G2OverCos<masking>(distribution, wi, sample.wo) / normal.m.z *
+    sample.weight = Saturate<Real>(SampledWeight<masking>(distribution, wi, sample.wo, cos_i, normal.m) *
                                    facets.Reflectance(c * c));
     sample.pdf = Saturate<Real>(normal.pdf / (4 * cos_i));
     return sample;
+  }
+
+ private:
+  Real Eval(const Vec3<Real>& wi, const Vec3<Real>& wo, const Facet<Real>& facet) const {
+    if (facet.lobe != kReflection) return 0;
+    double reflectance = facets.Reflectance(facet.cos2_i);
+    if constexpr (std::is_same_v<Real, float>) {
+      if (facets.NeedsDigits(facet.cos2_i)) {
+        reflectance = facets.Widened().Reflectance(FindFacet(Widen(wi), Widen(wo), 1.0).cos2_i);
+      }
+    }
+    const double factor = reflectance * G2OverCos<masking>(distribution, wi, wo) / 4;
+    return Saturate<Real>(distribution.DOfHalf(facet.half, factor));
   }
 };
 
