@@ -51,6 +51,7 @@ void WriteReadmeTable(const ReportData& data, Csv& table) {
                                          "rough_dielectric.eval",
                                          "rough_dielectric.eval_pdf",
                                          "rough_dielectric.sample",
+                                         "rough_dielectric.sample_visible",
                                          "rough_dielectric_beckmann.eval",
                                          "rough_conductor.eval",
                                          "ggx.sample_visible_reflection",

@@ -420,8 +420,24 @@ using FresnelOf = std::conditional_t<
     kReflector == Reflector::kMirror, MirrorFresnel,
     std::conditional_t<kReflector == Reflector::kConductor, ConductorFresnel, SchlickFresnel>>;
 
+template <bool kSeparable, class Distribution>
+float Masking(const Distribution& distribution, const Vec3& wi, const Vec3& wo) {
+  if constexpr (kSeparable) {
+    return 1 / ((1 + distribution.Lambda(wi)) * (1 + distribution.Lambda(wo)));
+  } else {
+    return 1 / (1 + distribution.Lambda(wi) + distribution.Lambda(wo));
+  }
+}
+
+// pbrt-v4: of a view above the surface; the sampler turns it there.
+template <class Distribution>
+float VisibleDensity(const Distribution& distribution, const Vec3& w, const Vec3& wm) {
+  return 1 / (1 + distribution.Lambda(w)) / std::abs(Cosine(distribution, w)) * distribution.D(wm) *
+         AbsDot(w, wm);
+}
+
 // eta is 1 of what only reflects.
-template <class Distribution, bool kSeparable, class Fresnel = DielectricFresnel>
+template <class Distribution, bool kSeparable, class Fresnel = DielectricFresnel, bool kVisible = false>
 struct RoughDielectric {
   Distribution distribution;
   float eta;
@@ -434,13 +450,7 @@ struct RoughDielectric {
     int lobe;
   };
 
-  float G(const Vec3& wi, const Vec3& wo) const {
-    if constexpr (kSeparable) {
-      return 1 / ((1 + distribution.Lambda(wi)) * (1 + distribution.Lambda(wo)));
-    } else {
-      return 1 / (1 + distribution.Lambda(wi) + distribution.Lambda(wo));
-    }
-  }
+  float G(const Vec3& wi, const Vec3& wo) const { return Masking<kSeparable>(distribution, wi, wo); }
 
   // The normal that takes wi to wo, on the upper side; false if there is none.
   bool HalfVector(const Vec3& wi, const Vec3& wo, int lobes, bool* reflects, Vec3* wm) const {
@@ -473,20 +483,36 @@ struct RoughDielectric {
     Vec3 wm;
     if (!HalfVector(wi, wo, lobes, &reflects, &wm)) return 0;
     const float F = lobes == kBoth ? fresnel(Dot(wi, wm)) : reflects ? 1 : 0;
-    const float pdf_wm = distribution.D(wm) * AbsCosTheta(wm);
+    const float pdf_wm = NormalDensity(wi, wm);
     if (reflects) return F * pdf_wm / (4 * AbsDot(wo, wm));
     return (1 - F) * pdf_wm * Sqr(eta) * AbsDot(wo, wm) / Sqr(Dot(wi, wm) + eta * Dot(wo, wm));
+  }
+
+  // Of the normals that are drawn.
+  float NormalDensity(const Vec3& wi, const Vec3& wm) const {
+    if constexpr (kVisible) {
+      return VisibleDensity(distribution, wi, wm);
+    } else {
+      return distribution.D(wm) * AbsCosTheta(wm);
+    }
+  }
+  Vec3 SampleUpperNormal(const Vec3& wi, float u1, float u2) const {
+    if constexpr (kVisible) {
+      return distribution.SampleVisibleNormal(CosTheta(wi) < 0 ? -wi : wi, u1, u2);
+    } else {
+      return distribution.SampleNormal(u1, u2);
+    }
   }
 
   Sample SampleDirection(const Vec3& wi, float u1, float u2, float u3, int lobes) const {
     constexpr Sample kNone = {{0, 0, 0}, 0, 0, 0};
     if (CosTheta(wi) == 0) return kNone;
-    const Vec3 upper = distribution.SampleNormal(u1, u2);
+    const Vec3 upper = SampleUpperNormal(wi, u1, u2);
     const Vec3 wm = CosTheta(wi) < 0 ? -upper : upper;
     const float cos_i = Dot(wi, wm);
     if (!(cos_i > 0)) return kNone;
     const float F = fresnel(cos_i);
-    const float pdf_wm = distribution.D(upper) * AbsCosTheta(upper);
+    const float pdf_wm = NormalDensity(wi, upper);
     const float pr = lobes == kBoth ? F : 1, pt = lobes == kBoth ? 1 - F : 1;
     Sample sample;
     if (lobes == kBoth ? u3 < F : lobes == kReflection) {
@@ -499,7 +525,8 @@ struct RoughDielectric {
       sample.lobe = kTransmission;
       sample.pdf = pt * pdf_wm * Sqr(eta) * AbsDot(sample.wo, wm) / Sqr(cos_i + eta * Dot(sample.wo, wm));
     }
-    sample.weight = cos_i * G(wi, sample.wo) / (AbsCosTheta(wi) * AbsCosTheta(wm));
+    sample.weight = kVisible ? G(wi, sample.wo) * (1 + distribution.Lambda(wi))
+                             : cos_i * G(wi, sample.wo) / (AbsCosTheta(wi) * AbsCosTheta(wm));
     if (lobes != kBoth) sample.weight *= sample.lobe == kReflection ? F : 1 - F;
     if (sample.lobe == kTransmission && transport == Transport::kImportance) sample.weight /= Sqr(eta);
     return sample;
@@ -514,13 +541,6 @@ inline void Store(const Vec3& v, float* out) {
   out[2] = v.z;
 }
 
-// pbrt-v4: of a view above the surface; the sampler turns it there.
-template <class Distribution>
-float VisibleDensity(const Distribution& distribution, const Vec3& w, const Vec3& wm) {
-  return 1 / (1 + distribution.Lambda(w)) / std::abs(Cosine(distribution, w)) * distribution.D(wm) *
-         AbsDot(w, wm);
-}
-
 template <class Distribution>
 float BoundedDensity(const Distribution& distribution, const Vec3& w, const Vec3& wm) {
   const float length =
@@ -528,14 +548,32 @@ float BoundedDensity(const Distribution& distribution, const Vec3& w, const Vec3
   return 2 * AbsDot(w, wm) * distribution.D(wm) / (distribution.CapBound(w) * w.z + length);
 }
 
-// pbrt-v4's conductor with F = 1: f |cos(theta_o)| / pdf of a mirror direction about a visible normal.
+// The density of a mirror direction about the visible normal wm.
+template <bool kBounded, class Distribution>
+float VisibleReflectionDensity(const Distribution& distribution, const Vec3& w, const Vec3& wm) {
+  float density;
+  if constexpr (kBounded) {
+    density = BoundedDensity(distribution, w, wm);
+  } else {
+    density = VisibleDensity(distribution, w, wm);
+  }
+  return density / (4 * AbsDot(w, wm));
+}
+template <bool kBounded, class Distribution>
+float PdfVisibleReflection(const Distribution& distribution, const Vec3& wi, const Vec3& wo) {
+  if (CosTheta(wi) == 0 || CosTheta(wo) == 0 || !SameHemisphere(wi, wo)) return 0;
+  const Vec3 w = wi.z < 0 ? -wi : wi;
+  return VisibleReflectionDensity<kBounded>(distribution, w, Normalize(wi.z < 0 ? -(wi + wo) : wi + wo));
+}
+
+// pbrt-v4's conductor: f |cos(theta_o)| / pdf of a mirror direction about a visible normal.
 struct VisibleReflection {
   Vec3 wo;
   float weight, pdf, lobe;
 };
-template <bool kBounded, class Distribution>
-VisibleReflection SampleVisibleReflection(const Distribution& distribution, const Vec3& wi, float u1,
-                                          float u2) {
+template <bool kBounded, bool kSeparable, class Distribution, class Fresnel>
+VisibleReflection SampleVisibleReflection(const Distribution& distribution, const Fresnel& fresnel,
+                                          const Vec3& wi, float u1, float u2) {
   const Vec3 w = wi.z < 0 ? -wi : wi;
   Vec3 wm;
   if constexpr (kBounded) {
@@ -545,16 +583,18 @@ VisibleReflection SampleVisibleReflection(const Distribution& distribution, cons
   }
   const Vec3 wo = Reflect(w, wm);
   if (!SameHemisphere(w, wo)) return {{0, 0, 0}, 0, 0, 0};
-  float density;
-  if constexpr (kBounded) {
-    density = BoundedDensity(distribution, w, wm);
-  } else {
-    density = VisibleDensity(distribution, w, wm);
-  }
-  const float pdf = density / (4 * AbsDot(w, wm));
-  const float g = 1 / (1 + distribution.Lambda(w) + distribution.Lambda(wo));
-  const float f = distribution.D(wm) * g / (4 * AbsCosTheta(w) * AbsCosTheta(wo));
+  const float pdf = VisibleReflectionDensity<kBounded>(distribution, w, wm);
+  const float g = Masking<kSeparable>(distribution, w, wo);
+  const float f = fresnel(Dot(w, wm)) * distribution.D(wm) * g / (4 * AbsCosTheta(w) * AbsCosTheta(wo));
   return {wi.z < 0 ? -wo : wo, f * AbsCosTheta(wo) / pdf, pdf, 1};
+}
+
+template <class Sample>
+void StoreSample(const Sample& sample, float* out) {
+  Store(sample.wo, out);
+  out[3] = sample.weight;
+  out[4] = sample.pdf;
+  out[5] = static_cast<float>(sample.lobe);
 }
 
 // A distribution from its parameters, as they follow the other inputs.
@@ -602,11 +642,12 @@ void OfNormals(const float* in, float* out, Transport) {
   } else if constexpr (row.what == NormalQuantity::kSampleReflection ||
                        row.what == NormalQuantity::kSampleReflectionBounded) {
     constexpr bool bounded = row.what == NormalQuantity::kSampleReflectionBounded;
-    const VisibleReflection sample = SampleVisibleReflection<bounded>(normals, Load(in), in[3], in[4]);
-    Store(sample.wo, out);
-    out[3] = sample.weight;
-    out[4] = sample.pdf;
-    out[5] = sample.lobe;
+    StoreSample(SampleVisibleReflection<bounded, false>(normals, MirrorFresnel(in), Load(in), in[3], in[4]),
+                out);
+  } else if constexpr (row.what == NormalQuantity::kPdfReflection ||
+                       row.what == NormalQuantity::kPdfReflectionBounded) {
+    constexpr bool bounded = row.what == NormalQuantity::kPdfReflectionBounded;
+    out[0] = PdfVisibleReflection<bounded>(normals, Load(in), Load(in + 3));
   } else {
     const Vec3 w = Cosine(normals, Load(in)) < 0 ? -Load(in) : Load(in);
     if constexpr (row.what == NormalQuantity::kSampleVisible) {
@@ -633,14 +674,6 @@ void MaskingG1Rational(const float* in, float* out, Transport) {
   out[0] = Dot(w, Load(in + 3)) * CosTheta(w) <= 0 ? 0 : RationalG1(Beckmann::Make(in + 6).A(w));
 }
 
-template <class Sample>
-void StoreSample(const Sample& sample, float* out) {
-  Store(sample.wo, out);
-  out[3] = sample.weight;
-  out[4] = sample.pdf;
-  out[5] = static_cast<float>(sample.lobe);
-}
-
 // The rough dielectric by its place in kDielectricQuantities.
 template <class Distribution, std::size_t kQuantity>
 void Dielectric(const float* in, float* out, Transport transport) {
@@ -649,7 +682,7 @@ void Dielectric(const float* in, float* out, Transport transport) {
   constexpr bool one_lobe_sampled = row.what == DielectricQuantity::kSample && !row.HasBothLobes();
   const float* const parameters = in + (one_lobe_sampled ? 5 : 6);
   const float eta = parameters[Distribution::kParameters];
-  const RoughDielectric<Distribution, row.separable> bsdf{
+  const RoughDielectric<Distribution, row.separable, DielectricFresnel, row.visible> bsdf{
       Distribution::Make(parameters), eta, transport, {eta}};
   if constexpr (row.what == DielectricQuantity::kSample) {
     StoreSample(bsdf.SampleDirection(Load(in), in[3], in[4], one_lobe_sampled ? 0 : in[5], lobes), out);
@@ -661,19 +694,26 @@ void Dielectric(const float* in, float* out, Transport transport) {
   }
 }
 
-// An opaque surface by its place among the reflectors' kernels of its distribution.
-template <class Distribution, std::size_t kPlace>
+// A kernel of an opaque surface.
+template <class Distribution, std::size_t kKernel>
 void OpaqueSurface(const float* in, float* out, Transport transport) {
-  constexpr DielectricQuantity row = kReflectorQuantities[kPlace % kNumReflectorQuantities];
-  using Fresnel = FresnelOf<static_cast<Reflector>(kPlace / kNumReflectorQuantities)>;
+  constexpr ReflectorKernelPlace place = PlaceOfReflectorKernel(kKernel);
+  constexpr DielectricQuantity row = kReflectorQuantities[place.quantity];
+  using Fresnel = FresnelOf<place.reflector>;
   const float* const parameters = in + (row.what == DielectricQuantity::kSample ? 5 : 6);
   const RoughDielectric<Distribution, row.separable, Fresnel> surface{
       Distribution::Make(parameters), 1, transport, Fresnel(parameters + Distribution::kParameters)};
-  if constexpr (row.what == DielectricQuantity::kSample) {
+  if constexpr (row.what == DielectricQuantity::kSample && row.visible) {
+    StoreSample(SampleVisibleReflection<false, row.separable>(surface.distribution, surface.fresnel, Load(in),
+                                                              in[3], in[4]),
+                out);
+  } else if constexpr (row.what == DielectricQuantity::kSample) {
     StoreSample(surface.SampleDirection(Load(in), in[3], in[4], 0, kReflection), out);
   } else {
     out[0] = surface.Eval(Load(in), Load(in + 3), kReflection);
-    if constexpr (row.what == DielectricQuantity::kEvalPdf) {
+    if constexpr (row.what == DielectricQuantity::kEvalPdf && row.visible) {
+      out[1] = PdfVisibleReflection<false>(surface.distribution, Load(in), Load(in + 3));
+    } else if constexpr (row.what == DielectricQuantity::kEvalPdf) {
       out[1] = surface.Pdf(Load(in), Load(in + 3), kReflection);
     }
   }
@@ -871,24 +911,34 @@ constexpr void AddDielectrics(KernelTable<Batch>& table, std::index_sequence<kQu
    ...);
 }
 
+template <class Distribution>
+constexpr void AddDielectrics(KernelTable<Batch>& table) {
+  AddDielectrics<Distribution>(table,
+                               std::make_index_sequence<NumDielectricQuantities(Distribution::kNormals)>());
+}
+
 template <class Distribution, std::size_t... kPlace>
 constexpr void AddReflectors(KernelTable<Batch>& table, std::index_sequence<kPlace...>) {
   constexpr std::size_t kFirst = ReflectorKernel({Distribution::kNormals, Reflector::kMirror, 0});
-  ((table[kFirst + kPlace] = {Loop<kFirst + kPlace, OpaqueSurface<Distribution, kPlace>>, true}), ...);
+  ((table[kFirst + kPlace] = {Loop<kFirst + kPlace, OpaqueSurface<Distribution, kFirst + kPlace>>, true}),
+   ...);
+}
+
+template <class Distribution>
+constexpr void AddReflectors(KernelTable<Batch>& table) {
+  AddReflectors<Distribution>(table, std::make_index_sequence<NumReflectorKernels(Distribution::kNormals)>());
 }
 
 constexpr KernelTable<Batch> Resolve() {
   KernelTable<Batch> table{};
   for (const Entry& entry : kEntries) table[entry.kernel] = {entry.batch, true};
-  constexpr auto quantities = std::make_index_sequence<kNumDielectricQuantities>();
   AddNormals(table, std::make_index_sequence<kNumNormalKernels>());
-  AddDielectrics<Ggx>(table, quantities);
-  AddDielectrics<Beckmann>(table, quantities);
-  AddDielectrics<Phong>(table, quantities);
-  constexpr auto places = std::make_index_sequence<kNumReflectors * kNumReflectorQuantities>();
-  AddReflectors<Ggx>(table, places);
-  AddReflectors<Beckmann>(table, places);
-  AddReflectors<Phong>(table, places);
+  AddDielectrics<Ggx>(table);
+  AddDielectrics<Beckmann>(table);
+  AddDielectrics<Phong>(table);
+  AddReflectors<Ggx>(table);
+  AddReflectors<Beckmann>(table);
+  AddReflectors<Phong>(table);
   return table;
 }
 

@@ -75,27 +75,32 @@ void RunDielectric(Arguments<T>& a) {
   using Calls = RoughDielectricCalls<kNormals>;
   constexpr DielectricQuantity row = kDielectricQuantities[kQuantity];
   constexpr JointMasking masking = row.separable ? JointMasking::kSeparable : JointMasking::kHeightCorrelated;
+  constexpr Sampling sampling = row.visible ? Sampling::kVisibleNormals : Sampling::kNormals;
   constexpr bool both = row.HasBothLobes(), reflects = row.reflects;
   const Directions<T> wi = a.Direction(0);
   if constexpr (row.what == DielectricQuantity::kSample) {
     const auto surface = a.template Surface<kNormals>(both ? 6 : 5);
     const T *const u1 = a.Lanes(3), *const u2 = a.Lanes(4);
     if constexpr (both) {
-      Calls::Sample(a.n, wi, u1, u2, a.Lanes(5), surface, a.Samples(), a.accuracy, a.transport, masking);
+      Calls::Sample(a.n, wi, u1, u2, a.Lanes(5), surface, a.Samples(), a.accuracy, a.transport, masking,
+                    sampling);
     } else if constexpr (reflects) {
-      Calls::SampleReflection(a.n, wi, u1, u2, surface, a.Samples(), a.accuracy, masking);
+      Calls::SampleReflection(a.n, wi, u1, u2, surface, a.Samples(), a.accuracy, masking, sampling);
     } else {
-      Calls::SampleTransmission(a.n, wi, u1, u2, surface, a.Samples(), a.accuracy, a.transport, masking);
+      Calls::SampleTransmission(a.n, wi, u1, u2, surface, a.Samples(), a.accuracy, a.transport, masking,
+                                sampling);
     }
   } else {
     const auto surface = a.template Surface<kNormals>(6);
     const Directions<T> wo = a.Direction(3);
     if constexpr (row.what == DielectricQuantity::kEvalPdf) {
-      Calls::EvalPdf(a.n, wi, wo, surface, a.Out(0), a.Out(1), a.accuracy, a.transport, masking);
+      Calls::EvalPdf(a.n, wi, wo, surface, a.Out(0), a.Out(1), a.accuracy, a.transport, masking, sampling);
     } else if constexpr (row.what == DielectricQuantity::kPdf) {
-      if constexpr (both) Calls::Pdf(a.n, wi, wo, surface, a.Out(0), a.accuracy);
-      if constexpr (!both && reflects) Calls::PdfReflection(a.n, wi, wo, surface, a.Out(0), a.accuracy);
-      if constexpr (!both && !reflects) Calls::PdfTransmission(a.n, wi, wo, surface, a.Out(0), a.accuracy);
+      if constexpr (both) Calls::Pdf(a.n, wi, wo, surface, a.Out(0), a.accuracy, sampling);
+      if constexpr (!both && reflects)
+        Calls::PdfReflection(a.n, wi, wo, surface, a.Out(0), a.accuracy, sampling);
+      if constexpr (!both && !reflects)
+        Calls::PdfTransmission(a.n, wi, wo, surface, a.Out(0), a.accuracy, sampling);
     } else if constexpr (both) {
       Calls::Eval(a.n, wi, wo, surface, a.Out(0), a.accuracy, a.transport, masking);
     } else if constexpr (reflects) {
@@ -120,13 +125,14 @@ void RunReflector(Arguments<T>& a) {
   using Calls = RoughReflectorCalls<place.normals, place.reflector>;
   constexpr DielectricQuantity row = kReflectorQuantities[place.quantity];
   constexpr JointMasking masking = row.separable ? JointMasking::kSeparable : JointMasking::kHeightCorrelated;
+  constexpr Sampling sampling = row.visible ? Sampling::kVisibleNormals : Sampling::kNormals;
   constexpr bool samples = row.what == DielectricQuantity::kSample;
   const auto surface = a.template Opaque<place.normals, place.reflector>(samples ? 5 : 6);
   const Directions<T> wi = a.Direction(0);
   if constexpr (samples) {
-    Calls::Sample(a.n, wi, a.Lanes(3), a.Lanes(4), surface, a.Samples(), a.accuracy, masking);
+    Calls::Sample(a.n, wi, a.Lanes(3), a.Lanes(4), surface, a.Samples(), a.accuracy, masking, sampling);
   } else if constexpr (row.what == DielectricQuantity::kEvalPdf) {
-    Calls::EvalPdf(a.n, wi, a.Direction(3), surface, a.Out(0), a.Out(1), a.accuracy, masking);
+    Calls::EvalPdf(a.n, wi, a.Direction(3), surface, a.Out(0), a.Out(1), a.accuracy, masking, sampling);
   } else {
     Calls::Eval(a.n, wi, a.Direction(3), surface, a.Out(0), a.accuracy, masking);
   }
@@ -167,6 +173,10 @@ void CallNormals(Arguments<T>& a, const P&... p) {
   } else if constexpr (row.what == NormalQuantity::kSampleReflectionBounded) {
     Calls::SampleVisibleReflectionBounded(a.n, a.Direction(0), a.Lanes(3), a.Lanes(4), p...,
                                           a.OutDirection(0), a.Out(3), a.Out(4), a.Out(5), a.accuracy);
+  } else if constexpr (row.what == NormalQuantity::kPdfReflection) {
+    Calls::PdfVisibleReflection(a.n, a.Direction(0), a.Direction(3), p..., a.Out(0), a.accuracy);
+  } else if constexpr (row.what == NormalQuantity::kPdfReflectionBounded) {
+    Calls::PdfVisibleReflectionBounded(a.n, a.Direction(0), a.Direction(3), p..., a.Out(0), a.accuracy);
   } else {
     Calls::SampleVisibleNormalBounded(a.n, a.Direction(0), a.Lanes(3), a.Lanes(4), p..., a.OutDirection(0),
                                       a.Out(3), a.accuracy);
@@ -234,11 +244,13 @@ const std::vector<Row<T>>& Rows() {
   // clang-format on
   static const std::vector<Row<T>> rows = [] {
     std::vector<Row<T>> all = components;
-    constexpr auto quantities = std::make_index_sequence<kNumDielectricQuantities>();
     AppendAllNormals(all, std::make_index_sequence<kNumNormalKernels>());
-    AppendDielectrics<T, Normals::kGgx>(all, quantities);
-    AppendDielectrics<T, Normals::kBeckmann>(all, quantities);
-    AppendDielectrics<T, Normals::kPhong>(all, quantities);
+    AppendDielectrics<T, Normals::kGgx>(all,
+                                        std::make_index_sequence<NumDielectricQuantities(Normals::kGgx)>());
+    AppendDielectrics<T, Normals::kBeckmann>(
+        all, std::make_index_sequence<NumDielectricQuantities(Normals::kBeckmann)>());
+    AppendDielectrics<T, Normals::kPhong>(
+        all, std::make_index_sequence<NumDielectricQuantities(Normals::kPhong)>());
     AppendReflectors(all, std::make_index_sequence<kNumReflectorKernels>());
     return all;
   }();

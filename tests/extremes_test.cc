@@ -418,15 +418,16 @@ TEST(Extremes, SampleVsEval) {
   for (const std::string_view model : kModels) {
     for (const DielectricQuantity& quantity : kDielectricQuantities) {
       if (quantity.what != DielectricQuantity::kSample) continue;
-      const auto same = [&](DielectricQuantity::What what, bool separable) {
+      const auto same = [&](DielectricQuantity::What what, bool separable, bool visible) {
         return KernelIndex(
             Id(model, kDielectricQuantities[FindDielectricQuantity(what, quantity.reflects,
-                                                                   quantity.transmits, separable)]
+                                                                   quantity.transmits, separable, visible)]
                           .name));
       };
-      const std::size_t sampler = same(DielectricQuantity::kSample, quantity.separable);
-      const std::size_t eval = same(DielectricQuantity::kEval, quantity.separable);
-      const std::size_t pdf = same(DielectricQuantity::kPdf, false);
+      const std::size_t sampler = same(DielectricQuantity::kSample, quantity.separable, quantity.visible);
+      if (sampler == kNumKernels) continue;  // Phong has no visible normals
+      const std::size_t eval = same(DielectricQuantity::kEval, quantity.separable, false);
+      const std::size_t pdf = same(DielectricQuantity::kPdf, false, quantity.visible);
       const std::size_t parameters = Split(kKernels[sampler].inputs).per_lane;
       const std::size_t num_inputs = Split(kKernels[sampler].inputs).count;
       for (const Transport transport : {Transport::kRadiance, Transport::kImportance}) {

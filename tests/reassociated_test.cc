@@ -162,10 +162,11 @@ constexpr std::size_t kEval = Quantity("eval"), kEvalReflection = Quantity("eval
                       kSample = Quantity("sample"), kSampleReflection = Quantity("sample_reflection"),
                       kSampleTransmission = Quantity("sample_transmission");
 
-template <class Dist, Normals kNormals, Reflector kReflector, DielectricQuantity::What kWhat>
-using OpaqueCase = RoughReflectorKernel<Dist, kNormals,
-                                        static_cast<std::size_t>(kReflector) * kNumReflectorQuantities +
-                                            FindReflectorQuantity(kWhat, false)>;
+template <class Dist, Normals kNormals, Reflector kReflector, DielectricQuantity::What kWhat,
+          bool kVisible = false>
+using OpaqueCase =
+    RoughReflectorKernel<Dist, ReflectorKernel(
+                                   {kNormals, kReflector, FindReflectorQuantity(kWhat, false, kVisible)})>;
 
 // K over whole vectors; n is a multiple of every vector's lanes.
 template <class K, size_t... kIn>
@@ -201,6 +202,7 @@ Cases CasesOnTarget() {
       NormalCase<Ggx, ggx, NormalQuantity::kSampleVisibleBounded>,
       NormalCase<Ggx, ggx, NormalQuantity::kSampleReflection>,
       NormalCase<Ggx, ggx, NormalQuantity::kSampleReflectionBounded>,
+      NormalCase<Ggx, ggx, NormalQuantity::kPdfReflectionBounded>,
       NormalCase<Beckmann, beckmann, NormalQuantity::kD>,
       NormalCase<Beckmann, beckmann, NormalQuantity::kLambda>,
       NormalCase<Beckmann, beckmann, NormalQuantity::kG1>,
@@ -227,6 +229,8 @@ Cases CasesOnTarget() {
       OpaqueCase<Ggx, ggx, Reflector::kConductor, DielectricQuantity::kEvalPdf>,
       OpaqueCase<Ggx, ggx, Reflector::kSchlick, DielectricQuantity::kEvalPdf>,
       OpaqueCase<Ggx, ggx, Reflector::kConductor, DielectricQuantity::kSample>,
+      OpaqueCase<Ggx, ggx, Reflector::kConductor, DielectricQuantity::kEvalPdf, true>,
+      OpaqueCase<Ggx, ggx, Reflector::kConductor, DielectricQuantity::kSample, true>,
       OpaqueCase<Beckmann, beckmann, Reflector::kConductor, DielectricQuantity::kEval>,
       OpaqueCase<Phong, phong, Reflector::kSchlick, DielectricQuantity::kEval>>();
 }

@@ -100,6 +100,8 @@ struct DielectricCase {
   double eta, theta, side;
 
   Direction wi() const { return side * Spherical(Radians(theta), 0.7); }
+  // Where a transmitting facet is vertical; visible ones do not fade out there. NaN if it nowhere is.
+  double HorizonOfFacets() const { return std::acos(-wi().z / eta); }
   std::string Text() const {
     return distribution.Text() +
            microlane::Text(", eta %g, %g degrees from %s", eta, theta, side > 0 ? "above" : "below");
@@ -131,7 +133,11 @@ struct DielectricSampler {
   std::string_view sample, eval, pdf;
   std::size_t every;  // of the cases, how many are tried for the density
 
-  bool ChoosesLobe() const { return pdf == "pdf"; }
+  bool ChoosesLobe() const { return pdf == "pdf" || pdf == "pdf_visible"; }
+  bool DrawsVisibleNormals() const { return pdf.substr(0, 11) == "pdf_visible"; }
+  bool Has(const Distribution& distribution) const {
+    return !DrawsVisibleNormals() || distribution.family != "phong";
+  }
 };
 constexpr DielectricSampler kDielectricSamplers[] = {
     {"sample", "eval", "pdf", 1},
@@ -140,6 +146,12 @@ constexpr DielectricSampler kDielectricSamplers[] = {
     {"sample_separable", "eval_separable", "pdf", 53},
     {"sample_reflection_separable", "eval_reflection_separable", "pdf_reflection", 53},
     {"sample_transmission_separable", "eval_transmission_separable", "pdf_transmission", 53},
+    {"sample_visible", "eval", "pdf_visible", 3},
+    {"sample_visible_reflection", "eval_reflection", "pdf_visible_reflection", 53},
+    {"sample_visible_transmission", "eval_transmission", "pdf_visible_transmission", 13},
+    {"sample_visible_separable", "eval_separable", "pdf_visible", 53},
+    {"sample_visible_reflection_separable", "eval_reflection_separable", "pdf_visible_reflection", 101},
+    {"sample_visible_transmission_separable", "eval_transmission_separable", "pdf_visible_transmission", 101},
 };
 
 // Sidak's correction over all chi-square tests of this file.
@@ -157,9 +169,9 @@ double ChiSquareSignificance() {
 class SphereGrid {
  public:
   // About `num_cells` cells, shared by the hemispheres as the directions are; of none, a hemisphere gets a
-  // few.
+  // few. `jump` is a colatitude where the density may jump, which no cell shall straddle; NaN of none.
   template <class T>
-  SphereGrid(const DirectionColumns<T>& directions, int num_cells) {
+  SphereGrid(const DirectionColumns<T>& directions, int num_cells, double jump) {
     for (const bool upper : {true, false}) {
       Edges& edges = edges_[upper ? 0 : 1];
       Direction mean{0, 0, 0};
@@ -179,6 +191,9 @@ class SphereGrid {
       const double share = static_cast<double>(members.size()) / directions.size();
       const int count = std::max(5, static_cast<int>(std::sqrt(share * num_cells)));
       edges.theta = Quantiles(theta, count, upper ? 0 : kTestPi / 2, upper ? kTestPi / 2 : kTestPi);
+      if (jump > edges.theta.front() && jump < edges.theta.back()) {
+        edges.theta.insert(std::upper_bound(edges.theta.begin(), edges.theta.end(), jump), jump);
+      }
       edges.phi = Quantiles(phi, count, -kTestPi, kTestPi);
       edges.first_cell = cells_.size();
       for (std::size_t j = 0; j + 1 < edges.theta.size(); ++j) {
@@ -249,8 +264,9 @@ struct DensityTest {
 };
 
 // Integrals of `density` over the cells of a grid, to `tolerance` each by its own estimate. Where a cell got
-// visibly less than the pilot's weights promise, a ridge may have passed between all nodes: such cells are
-// integrated again in 256 parts. The pilot decides where to look closer, never what is found there.
+// visibly less than the pilot's weights promise, or next to nothing where the pilot has a sample, a ridge may
+// have passed between all nodes: such cells are integrated again in 256 parts. The pilot decides where to
+// look closer, never what is found there.
 template <class T, class Density>
 CellIntegrals IntegrateOverGrid(const SphereGrid& grid, const DirectionColumns<T>& pilot,
                                 const Column<T>& weights, double tolerance, const Density& density) {
@@ -267,7 +283,8 @@ CellIntegrals IntegrateOverGrid(const SphereGrid& grid, const DirectionColumns<T
   std::vector<std::size_t> suspects;
   std::vector<Cell> parts;
   for (std::size_t c = 0; c < cells.size(); ++c) {
-    if (integrals.value[c] * pilot.size() >= sums[c] - 4 * std::sqrt(squares[c])) continue;
+    const double least = std::max(sums[c] - 4 * std::sqrt(squares[c]), 0.01 * sums[c]);
+    if (integrals.value[c] * pilot.size() >= least) continue;
     suspects.push_back(c);
     const Cell& cell = cells[c];
     const double theta_step = (cell.theta_high - cell.theta_low) / kParts;
@@ -293,11 +310,11 @@ CellIntegrals IntegrateOverGrid(const SphereGrid& grid, const DirectionColumns<T
 }
 
 // Chi-square of directions (zero: a sample that failed) against a density over the sphere whose integral is
-// the probability not to fail.
+// the probability not to fail. `jump` as in SphereGrid.
 template <class T, class Density>
 DensityTest TestDensity(const DirectionColumns<T>& pilot, const DirectionColumns<T>& samples,
-                        const Density& density) {
-  const SphereGrid grid(pilot, 600);
+                        const Density& density, double jump = std::numeric_limits<double>::quiet_NaN()) {
+  const SphereGrid grid(pilot, 600, jump);
   // 5e-7 of n = 10^5 is a twentieth of a count in each cell.
   const CellIntegrals integrals = IntegrateOverGrid(grid, pilot, Column<T>(pilot.size(), 1), 5e-7, density);
   DensityTest test;
@@ -546,6 +563,7 @@ TEST(VisibleReflectionSampler, WeightsAreValueOverDensity) {
   constexpr std::size_t kSamples = 2000;
   constexpr double kEta = 1.5;
   Tally weights("weight = f |cos| / (F pdf)"), densities("pdf = D_visible's"), lost("0 where lost");
+  Tally evaluated("pdf_visible_reflection = D_visible's");
   std::size_t successes = 0;
   double largest = 0;
   std::uint64_t seed = 3000;
@@ -556,6 +574,9 @@ TEST(VisibleReflectionSampler, WeightsAreValueOverDensity) {
     const Column<double> f_cos = RunOne<double>(c.distribution.Dielectric("eval_reflection"), kSamples, {},
                                                 c.v(), wo, c.distribution, kEta);
     const Column<double> density = ReflectedDensity(c, wo);
+    const std::string pdf_id =
+        c.distribution.Id(c.bounded ? "pdf_visible_reflection_bounded" : "pdf_visible_reflection");
+    const Column<double> pdf = RunOne<double>(pdf_id, kSamples, {}, c.v(), wo, c.distribution);
     Column<double> cos_i;
     for (std::size_t i = 0; i < kSamples; ++i) cos_i.push_back(Dot(c.v(), Normalized(c.v() + wo[i])));
     const Column<double> F = RunOne<double>("fresnel.dielectric", kSamples, {}, cos_i, kEta);
@@ -572,6 +593,7 @@ TEST(VisibleReflectionSampler, WeightsAreValueOverDensity) {
       const double geometric = 1 + 1 / std::abs(wo.z[i]) + 1 / cos_i[i];
       weights.AddRelative(f_cos[i] / (F[i] * density[i]), out[3][i], 1e-11 * geometric, where);
       densities.AddRelative(out[4][i], density[i], 1e-12 * geometric / std::min(alpha, 1.0), where);
+      evaluated.AddRelative(pdf[i], density[i], 1e-12 * geometric / std::min(alpha, 1.0), where);
     }
   }
   weights.Note(Text(", %zu samples, largest weight %.17g", successes, largest));
@@ -623,16 +645,20 @@ TEST(RoughDielectricSampler, DensityIsItsPdfOverTheWholeSphereAndFailuresAreTheR
     std::uint64_t seed = 1000;
     for (std::size_t i = 0; i < cases.size(); i += sampler.every) {
       const DielectricCase& c = cases[i];
+      if (!sampler.Has(c.distribution)) continue;
       std::mt19937_64 random(seed);
       // Every fourth case in the fast accuracy.
       const Accuracy accuracy = seed++ % 4 == 0 ? Accuracy::kFast : Accuracy::kStandard;
       const DirectionColumns<float> pilot = SampleDirections(c, 20000, random, accuracy, sampler).wo;
       const DirectionColumns<float> samples = SampleDirections(c, kSamples, random, accuracy, sampler).wo;
       const Direction wi = c.wi();
-      const DensityTest test = TestDensity(pilot, samples, [&](const DirectionColumns<double>& wo) {
-        return RunOne<double>(c.distribution.Dielectric(sampler.pdf), wo.size(), {}, wi, wo, c.distribution,
-                              c.eta);
-      });
+      const DensityTest test = TestDensity(
+          pilot, samples,
+          [&](const DirectionColumns<double>& wo) {
+            return RunOne<double>(c.distribution.Dielectric(sampler.pdf), wo.size(), {}, wi, wo,
+                                  c.distribution, c.eta);
+          },
+          c.HorizonOfFacets());
       tally.Add(test, kSamples, c.Text());
     }
   }
@@ -692,10 +718,12 @@ template <class T>
 void ExpectWeightsAreValueOverDensity(Accuracy accuracy, const std::string& name) {
   Tally weights("weight = f |cos| / pdf, " + name), densities("pdf = the pdf kernel's, " + name);
   Tally invisible("failed samples are 0 in every output, " + name);
+  Tally at_most_one("weight of visible normals, without the scale of radiance, - 1, " + name);
   std::size_t doubtful = 0, successes = 0, failures = 0;
   std::uint64_t seed = 5000;
   for (const DielectricCase& c : DielectricCases()) {
     for (const DielectricSampler& sampler : kDielectricSamplers) {
+      if (!sampler.Has(c.distribution)) continue;
       std::mt19937_64 random(seed);
       const Mode mode{accuracy, seed++ % 2 == 0 ? Transport::kRadiance : Transport::kImportance};
       const std::size_t n = 500;
@@ -719,6 +747,10 @@ void ExpectWeightsAreValueOverDensity(Accuracy accuracy, const std::string& name
         }
         ++successes;
         const bool reflects = s.lobe[i] == 1;
+        if (sampler.DrawsVisibleNormals()) {
+          const double scale = reflects || mode.transport == Transport::kRadiance ? 1 : c.eta * c.eta;
+          at_most_one.Add(std::max(0.0, s.weight[i] * scale - 1), declared + 4 * u, where);
+        }
         Direction m = Normalized(s.wi[i] + (reflects ? 1 : c.eta) * s.wo[i]);
         if (m.z < 0) m = -1 * m;
         const double conditioning = Conditioning(c.distribution, s.wi[i], s.wo[i], m, c.eta, reflects);
@@ -751,9 +783,9 @@ TEST(RoughDielectricSampler, WeightsAreValueOverDensityInFloatLanes) {
   ExpectWeightsAreValueOverDensity<float>(Accuracy::kFast, "float fast");
 }
 
-// Samples of opaque surfaces: directions and densities of the dielectric's reflection, whose chi-square is
-// above, and weights that are value over density.
-TEST(OpaqueSurfaceSampler, DirectionsAreTheDielectricsAndWeightsAreValueOverDensity) {
+// Samples of opaque surfaces: directions and densities of the dielectric's reflection, or of the mirror about
+// visible normals, whose chi-squares are above, and weights that are value over density.
+TEST(OpaqueSurfaceSampler, DirectionsAreThoseOfNormalsAndWeightsAreValueOverDensity) {
   struct Opaque {
     std::string_view model;
     Values parameters;
@@ -763,13 +795,16 @@ TEST(OpaqueSurfaceSampler, DirectionsAreTheDielectricsAndWeightsAreValueOverDens
                              {"rough_conductor", {{1.5f, 0}}},
                              {"rough_schlick", {{0.04f}}}};
   constexpr std::size_t kSamples = 500;
-  Tally directions("wo and pdf of the dielectric's reflection"), weights("weight = f |cos| / pdf");
+  Tally directions("wo and pdf of the normals' reflection"), weights("weight = f |cos| / pdf");
+  Tally at_most_one("weight of visible normals - 1");
   std::uint64_t seed = 9000;
   std::size_t successes = 0;
   for (const DielectricCase& c : DielectricCases()) {
     if (c.eta != 1.5f) continue;
     for (const Opaque& surface : surfaces) {
-      for (const std::string suffix : {"", "_separable"}) {
+      for (const std::string suffix : {"", "_separable", "_visible", "_visible_separable"}) {
+        const bool visible = suffix.find("visible") != std::string::npos;
+        if (visible && c.distribution.family == "phong") continue;
         std::mt19937_64 random(seed++);
         const Column<double> u1 = UniformNumbers<double>(kSamples, random),
                              u2 = UniformNumbers<double>(kSamples, random);
@@ -778,19 +813,21 @@ TEST(OpaqueSurfaceSampler, DirectionsAreTheDielectricsAndWeightsAreValueOverDens
         };
         const std::vector<Column<double>> out =
             sample(c.distribution.Model(surface.model, "sample" + suffix), surface.parameters);
-        const std::vector<Column<double>> dielectric =
-            sample(c.distribution.Dielectric("sample_reflection" + suffix), {{c.eta}});
+        const std::vector<Column<double>> reflection =
+            visible ? sample(c.distribution.Id("sample_visible_reflection"), {{}})
+                    : sample(c.distribution.Dielectric("sample_reflection" + suffix), {{c.eta}});
         const DirectionColumns<double> wo{out[0], out[1], out[2]};
         const std::vector<Column<double>> value =
             RunAll<double>(c.distribution.Model(surface.model, "eval_pdf" + suffix), kSamples, {}, c.wi(), wo,
                            c.distribution, surface.parameters);
         for (std::size_t i = 0; i < kSamples; ++i) {
           const auto where = [&] {
-            return std::string(surface.model) + ' ' + c.Text() + " wo " + Text(wo[i]);
+            return std::string(surface.model) + suffix + ' ' + c.Text() + " wo " + Text(wo[i]);
           };
           for (const std::size_t k : {0, 1, 2, 4, 5}) {
-            directions.AddRelative(out[k][i], dielectric[k][i], 1e-13, where);
+            directions.AddRelative(out[k][i], reflection[k][i], 1e-13, where);
           }
+          if (visible) at_most_one.Add(std::max(0.0, out[3][i] - 1), 0, where);
           if (out[5][i] == 0) continue;
           ++successes;
           const double cos_i = Dot(c.wi(), Normalized(c.wi() + wo[i]));
@@ -801,7 +838,7 @@ TEST(OpaqueSurfaceSampler, DirectionsAreTheDielectricsAndWeightsAreValueOverDens
     }
   }
   weights.Note(Text(", %zu samples", successes));
-  EXPECT_GT(successes, 100 * kSamples);
+  EXPECT_GT(successes, 200 * kSamples);
 }
 
 // The mean weight, failed samples counted with 0, estimates int f |cos| dwo.
@@ -820,7 +857,7 @@ TEST(RoughDielectricSampler, MeanWeightIsTheDirectionalAlbedo) {
     std::mt19937_64 random(seed++);
     const SampledDirections pilot = SampleDirections(c, 20000, random, Accuracy::kStandard);
     const SampledDirections samples = SampleDirections(c, kSamples, random, Accuracy::kStandard);
-    const SphereGrid grid(pilot.wo, 100);
+    const SphereGrid grid(pilot.wo, 100, c.HorizonOfFacets());
     const CellIntegrals albedo =
         IntegrateOverGrid(grid, pilot.wo, pilot.weight, 2e-5, [&](const DirectionColumns<double>& wo) {
           return RunOne<double>(c.distribution.Dielectric("eval"), wo.size(), {}, c.wi(), wo, c.distribution,

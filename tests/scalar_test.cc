@@ -49,6 +49,12 @@ constexpr ScalarBound kScalarBounds[] = {
     {"ggx.sample_visible_reflection_bounded", 0.51, 24},
     {"ggx.sample_visible_reflection_isotropic", 0.51, 24},
     {"ggx.sample_visible_reflection_bounded_isotropic", 0.51, 24},
+    {"ggx.pdf_visible_reflection", 0.51, 16},
+    {"ggx.pdf_visible_reflection_isotropic", 0.51, 16},
+    {"ggx.pdf_visible_reflection_bounded", 0.51, 16},
+    {"ggx.pdf_visible_reflection_bounded_isotropic", 0.51, 16},
+    {"beckmann.pdf_visible_reflection", 6, 20},
+    {"beckmann.pdf_visible_reflection_isotropic", 6, 20},
     {"beckmann.D", 0.51, 8},
     {"beckmann.D_isotropic", 0.51, 10},
     {"beckmann.Lambda", 6, 10},
@@ -125,22 +131,27 @@ constexpr ScalarBound kScalarBounds[] = {
 };
 // clang-format on
 
-// Of each family's quantities, by DielectricQuantity::What.
+// Of each family's quantities, by DielectricQuantity::What; the density of visible normals has a Lambda, as
+// the value has.
 constexpr ScalarBound kScalarModelBounds[kNumModelFamilies][4] = {
     {{"eval", 0.51, 16}, {"pdf", 0.51, 16}, {"eval_pdf", 0.51, 16}, {"sample", 2.5, 32768}},
     {{"eval", 6, 20}, {"pdf", 0.51, 20}, {"eval_pdf", 6, 20}, {"sample", 2.5, 32768}},
     {{"eval", 0.51, 16}, {"pdf", 0.51, 16}, {"eval_pdf", 0.51, 16}, {"sample", 2.5, 32768}}};
 
+constexpr ScalarBound FindModelBound(Normals normals, const DielectricQuantity& row) {
+  const bool has_lambda = row.visible && row.what == DielectricQuantity::kPdf;
+  return kScalarModelBounds[static_cast<std::size_t>(normals)]
+                           [has_lambda ? DielectricQuantity::kEvalPdf : row.what];
+}
+
 constexpr ScalarBound FindBound(std::size_t kernel) {
   if (kernel >= kFirstReflectorKernel) {
     const ReflectorKernelPlace place = PlaceOfReflectorKernel(kernel);
-    return kScalarModelBounds[static_cast<std::size_t>(place.normals)]
-                             [kReflectorQuantities[place.quantity].what];
+    return FindModelBound(place.normals, kReflectorQuantities[place.quantity]);
   }
   if (kernel >= kFirstDielectricKernel) {
-    const std::size_t i = kernel - kFirstDielectricKernel;
-    const DielectricQuantity& quantity = kDielectricQuantities[i % kNumDielectricQuantities];
-    return kScalarModelBounds[i / kNumDielectricQuantities][quantity.what];
+    const DielectricKernelPlace place = PlaceOfDielectricKernel(kernel);
+    return FindModelBound(place.normals, kDielectricQuantities[place.quantity]);
   }
   const std::string_view id = kKernels[kernel].id;
   for (const ScalarBound& bound : kScalarBounds) {

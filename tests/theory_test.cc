@@ -853,7 +853,7 @@ TEST(OpaqueSurface, ValueIsTheMirrorsTimesTheReflectanceAndSymmetricAndEvalPdfIs
   ForEachLaneType([](auto lane, Accuracy accuracy, const std::string& name) {
     using T = decltype(lane);
     const Mode mode{accuracy};
-    Tally products("f = F f of the mirror, " + name), fused("eval_pdf = eval and pdf_reflection, " + name);
+    Tally products("f = F f of the mirror, " + name), fused("eval_pdf = eval and pdf, " + name);
     Tally reciprocity("f(wi, wo) = f(wo, wi), " + name);
     std::uint64_t seed = 5000;
     for (const Distribution& distribution : ModelDistributions()) {
@@ -887,12 +887,23 @@ TEST(OpaqueSurface, ValueIsTheMirrorsTimesTheReflectanceAndSymmetricAndEvalPdfIs
                                                         n, mode, wi, wo, distribution, facets.parameters);
           const Column<T> pdf =
               RunOne<T>(distribution.Dielectric("pdf_reflection"), n, mode, wi, wo, distribution, 1.5);
+          std::vector<Column<T>> both_visible;
+          Column<T> pdf_visible;
+          if (distribution.family != "phong") {
+            both_visible = RunAll<T>(distribution.Model(facets.model, "eval_pdf_visible" + suffix), n, mode,
+                                     wi, wo, distribution, facets.parameters);
+            pdf_visible = RunOne<T>(distribution.Id("pdf_visible_reflection"), n, mode, wi, wo, distribution);
+          }
           for (std::size_t i = 0; i < n; ++i) {
             const auto where = [&] {
               return facets.Text() + ' ' + PairText(distribution, pairs, i, facets.index);
             };
             fused.AddRelative(both[0][i], there[i], declared, where);
             fused.AddRelative(both[1][i], pdf[i], declared, where);
+            if (!pdf_visible.empty()) {
+              fused.AddRelative(both_visible[0][i], there[i], declared, where);
+              fused.AddRelative(both_visible[1][i], pdf_visible[i], declared, where);
+            }
             if (std::min(there[i], back[i]) < std::numeric_limits<T>::min() * 0x1p20) continue;
             double conditioning = PairConditioning(distribution, pairs, i, facets.index);
             // The lengths of rounded directions are in the cosine, which Schlick's F sees by 5 (1 - f0) x^4 /

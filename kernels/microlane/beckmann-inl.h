@@ -385,11 +385,11 @@ struct Beckmann {
   // Lambda), so that the density of wo,
   //   D_v(m)/(4 v.m) = exp(-t^2 - y^2) |M|^4 / (2 sqrt(pi) alpha_x alpha_y q M(a)),
   // is free of delta, and no length is formed. Of a view of the length 1 to 2; the powers of two are put
-  // back.
-  template <bool kBounded, Accuracy A, class D, class... P>
+  // back. cos2 = (v.m)^2.
+  template <bool kBounded, JointMasking kG, Accuracy A, class D, class... P>
   static HWY_INLINE void SampleVisibleReflection(D d, Vec<D>& ox, Vec<D>& oy, Vec<D>& oz, Vec<D>& weight,
-                                                 Vec<D>& pdf, Vec<D>& lobe, Vec<D> vx, Vec<D> vy, Vec<D> vz,
-                                                 Vec<D> u1, Vec<D> u2, P... p) {
+                                                 Vec<D>& pdf, Vec<D>& lobe, Vec<D>& cos2, Vec<D> vx,
+                                                 Vec<D> vy, Vec<D> vz, Vec<D> u1, Vec<D> u2, P... p) {
     static_assert(!kBounded, "caps are GGX's");
     const Vec<D> zero = hn::Zero(d), one = Const(d, 1);
     const Vec<D> unit = PowerOfTwoScale(d, vx, vy, vz);
@@ -411,9 +411,10 @@ struct Beckmann {
     const Vec<D> area = hn::Mul(hn::Mul(AlphaX(p...), AlphaY(p...)), Const(d, 4 * kRootPi));
     const Vec<D> divisor = hn::Mul(hn::Mul(area, erfcx), visible);
     const Vec<D> density = OverExp<A>(d, Div<A>(d, hn::Mul(hn::Mul(m2, m2), share), divisor), exp_t2);
-    ReflectAboutVisible<Beckmann, A>(d, ox, oy, oz, weight, pdf, lobe, hn::Mul(hn::Add(v_m, v_m), r_m2), x, y,
-                                     one, zero, density, mu, visible, vx, vy, vz, p...);
+    ReflectAboutVisible<Beckmann, kG, A>(d, ox, oy, oz, weight, pdf, lobe, hn::Mul(hn::Add(v_m, v_m), r_m2),
+                                         x, y, one, zero, density, mu, visible, vx, vy, vz, p...);
     const Vec<D> down = InversePowerOfTwo(d, unit);
+    cos2 = hn::Mul(hn::Mul(v_m, down), hn::Mul(hn::Mul(v_m, down), r_m2));
     ox = hn::Mul(ox, down);
     oy = hn::Mul(oy, down);
     oz = hn::Mul(oz, down);

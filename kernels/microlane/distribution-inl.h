@@ -24,6 +24,8 @@ namespace microlane {
 namespace HWY_NAMESPACE {
 namespace {
 
+enum class JointMasking { kSeparable, kHeightCorrelated };  // Walter 2007 Eq. 23; Heitz 2014 Eq. 99
+
 template <class Dist>
 struct LogDensityOp {
   template <class DD, class... P>
@@ -429,11 +431,11 @@ HWY_INLINE void SampleVisibleNormal(D d, Vec<D>& mx, Vec<D>& my, Vec<D>& mz, Vec
 }
 
 // Reflection of v about a normal M that is visible from it, s = 2 |v.M| / |M|^2 (Walter 2007 Eq. 39), with
-// its density and, of the ideal mirror and F = 1, its weight (1 + Lambda_v)/(1 + Lambda_v + Lambda_o), from
-// mu = |vz| (1 + 2 Lambda_v) and kept = |vz| + mu, or what is left of that to bounded caps. M and o of the
+// its density and, of the ideal mirror and F = 1, its weight G2/G1(v), from mu = |vz| (1 + 2 Lambda_v) and
+// kept = |vz| + mu, or what is left of that to bounded caps (of height-correlated masking). M and o of the
 // view -v, seen from below the surface, are turned back with it. All 0 where o is on the other side. M is (x,
 // y, z_m + z_tail); the tail counts but in kFast.
-template <class Dist, Accuracy A, class D, class... P>
+template <class Dist, JointMasking kG, Accuracy A, class D, class... P>
 HWY_INLINE void ReflectAboutVisible(D d, Vec<D>& ox, Vec<D>& oy, Vec<D>& oz, Vec<D>& weight, Vec<D>& pdf,
                                     Vec<D>& lobe, Vec<D> s, Vec<D> x, Vec<D> y, Vec<D> z_m, Vec<D> z_tail,
                                     Vec<D> density, Vec<D> mu, Vec<D> kept, Vec<D> vx, Vec<D> vy, Vec<D> vz,
@@ -447,10 +449,17 @@ HWY_INLINE void ReflectAboutVisible(D d, Vec<D>& ox, Vec<D>& oy, Vec<D>& oz, Vec
   const Vec<D> mu_o = Dist::template Masking<Care::kPlain, A>(d, wx, wy, wz, p...);
   // Scaled, so that two grazing cosines do not underflow together.
   const Vec<D> scale = Const(d, 0x1p60), scaled_wz = hn::Mul(wz, scale);
-  const Vec<D> masking = hn::MulAdd(mu, scaled_wz, hn::Mul(mu_o, hn::Mul(z, scale)));
+  Vec<D> numerator, masking;
+  if constexpr (kG == JointMasking::kSeparable) {
+    numerator = hn::Add(scaled_wz, scaled_wz);
+    masking = hn::Mul(hn::Add(wz, mu_o), scale);
+  } else {
+    numerator = hn::Mul(kept, scaled_wz);
+    masking = hn::MulAdd(mu, scaled_wz, hn::Mul(mu_o, hn::Mul(z, scale)));
+  }
   const auto invalid = hn::Le(wz, zero);
   // 0 to 1 whatever an approximate reciprocal makes of a view whose length is next to 0.
-  const Vec<D> ratio = Div<A>(d, hn::Mul(kept, scaled_wz), masking);
+  const Vec<D> ratio = Div<A>(d, numerator, masking);
   weight = ZeroIf(invalid, hn::Max(zero, hn::Min(one, ratio)));
   pdf = ZeroIf(invalid, density);
   ox = ZeroIf(invalid, wx);

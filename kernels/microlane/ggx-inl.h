@@ -80,6 +80,16 @@ struct Ggx {
                                       w_tail, u2, p...);
   }
 
+  // factor over = (1 - k) z of Eto and Tokuyoshi 2023, z = |vz|.
+  template <Accuracy A, class D, class... P>
+  static HWY_INLINE void LeftOut(D d, Vec<D>& factor, Vec<D>& over, Vec<D> vx, Vec<D> vy, Vec<D> z, P... p) {
+    const Vec<D> one = Const(d, 1), smaller = hn::Min(AlphaX(p...), AlphaY(p...));
+    const Vec<D> a = hn::IfThenElse(hn::Gt(smaller, one), one, smaller), a2 = hn::Mul(a, a);
+    const Vec<D> t = hn::Add(one, Sqrt<A>(d, hn::MulAdd(vx, vx, hn::Mul(vy, vy)))), t2 = hn::Mul(t, t);
+    over = Div<A>(d, z, hn::MulAdd(a2, hn::Mul(z, z), t2));
+    factor = hn::Mul(a2, hn::MulAdd(z, z, t2));
+  }
+
   // NOLINTBEGIN(misc-const-correctness): what one instantiation leaves alone, another assigns.
   // Spherical caps (Dupuy and Benyoub 2023), every length times r = |q|, q = (alpha_x vx, alpha_y vy, |vz|),
   // so that nothing is normalised before the end. With s = q/r, the point c of the cap above -k s.z has 1 -
@@ -96,7 +106,7 @@ struct Ggx {
   static HWY_INLINE void CapHalfVector(D d, Vec<D>& hx, Vec<D>& hy, Vec<D>& hz, Vec<D>& hz_tail, Vec<D>& r,
                                        Vec<D>& rz, Vec<D> vx, Vec<D> vy, Vec<D> vz, Vec<D> u1, Vec<D> u2,
                                        P... p) {
-    const Vec<D> zero = hn::Zero(d), one = Const(d, 1), ax = AlphaX(p...), ay = AlphaY(p...);
+    const Vec<D> zero = hn::Zero(d), ax = AlphaX(p...), ay = AlphaY(p...);
     const Vec<D> z = hn::Abs(vz);
     const auto below = hn::Lt(vz, zero);
     const Vec<D> qx = hn::Mul(ax, hn::IfThenElse(below, hn::Neg(vx), vx));
@@ -118,11 +128,9 @@ struct Ggx {
     hz = whole;
     hz_tail = whole_tail;
     if constexpr (kBounded) {
-      const Vec<D> smaller = hn::Min(ax, ay);
-      const Vec<D> a = hn::IfThenElse(hn::Gt(smaller, one), one, smaller), a2 = hn::Mul(a, a);
-      const Vec<D> t = hn::Add(one, Sqrt<A>(d, hn::MulAdd(vx, vx, hn::Mul(vy, vy)))), t2 = hn::Mul(t, t);
-      const Vec<D> over = Div<A>(d, z, hn::MulAdd(a2, hn::Mul(z, z), t2));
-      const Vec<D> rest = hn::Mul(hn::Mul(a2, hn::MulAdd(z, z, t2)), over);  // (1 - k) |vz|
+      Vec<D> factor, over;
+      LeftOut<A>(d, factor, over, vx, vy, z, p...);
+      const Vec<D> rest = hn::Mul(factor, over);
       rz = hn::Sub(rz, rest);
       kept = hn::NegMulAdd(w, rest, whole);
       beside = hn::MulAdd(rest, hn::Sub(hn::Add(z, z), rest), s2);
@@ -179,11 +187,13 @@ struct Ggx {
   //   o = t M - v,  pdf = 1/(2 pi alpha_x alpha_y (r + k |vz|) t^2)  (Walter 2007 Eq. 14),
   // where o takes t from v.M, so that |o| = |v| whatever M lost where c and s cancel, and the density from
   // |H|^2; and with mu = |z| (1 + 2 Lambda), of v the r above, the weight G2/G1 (1 + k s.z)/(1 + s.z) is
-  //   (r + k |vz|) oz / (mu_v oz + mu_o |vz|).
-  template <bool kBounded, Accuracy A, class D, class... P>
+  //   (r + k |vz|) oz / (mu_v oz + mu_o |vz|)
+  // of height-correlated masking. cos2 = (v.m)^2.
+  template <bool kBounded, JointMasking kG, Accuracy A, class D, class... P>
   static HWY_INLINE void SampleVisibleReflection(D d, Vec<D>& ox, Vec<D>& oy, Vec<D>& oz, Vec<D>& weight,
-                                                 Vec<D>& pdf, Vec<D>& lobe, Vec<D> vx, Vec<D> vy, Vec<D> vz,
-                                                 Vec<D> u1, Vec<D> u2, P... p) {
+                                                 Vec<D>& pdf, Vec<D>& lobe, Vec<D>& cos2, Vec<D> vx,
+                                                 Vec<D> vy, Vec<D> vz, Vec<D> u1, Vec<D> u2, P... p) {
+    static_assert(!kBounded || kG == JointMasking::kHeightCorrelated);
     constexpr bool kTails = A != Accuracy::kFast;
     const Vec<D> zero = hn::Zero(d), ax = AlphaX(p...), ay = AlphaY(p...);
     Vec<D> hx, hy, hz, hz_tail, r, rz;
@@ -203,8 +213,9 @@ struct Ggx {
     const Vec<D> left = hn::Mul(hn::NegMulAdd(q, h2, m2), hn::Add(r_m2, r_m2));
     const Vec<D> area = hn::Mul(hn::Mul(hn::Mul(ax, ay), Const(d, 2 * kPi)), rz);
     const Vec<D> density = Div<A>(d, hn::MulAdd(q2, left, q2), area);
-    ReflectAboutVisible<Ggx, A>(d, ox, oy, oz, weight, pdf, lobe, hn::Mul(hn::Add(v_m, v_m), r_m2), x, y, hz,
-                                hz_tail, density, r, rz, vx, vy, vz, p...);
+    cos2 = hn::Mul(v_m, hn::Mul(v_m, r_m2));
+    ReflectAboutVisible<Ggx, kG, A>(d, ox, oy, oz, weight, pdf, lobe, hn::Mul(hn::Add(v_m, v_m), r_m2), x, y,
+                                    hz, hz_tail, density, r, rz, vx, vy, vz, p...);
   }
   // NOLINTEND(misc-const-correctness)
 };

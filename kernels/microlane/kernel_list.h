@@ -25,15 +25,15 @@ struct Bounds {
 // How an output's error is scaled.
 enum class Metric {
   kUlp,  // |got - exact| / ulp(exact)
-  // Component of a unit vector: |got - exact| / ulp(kappa). kappa is 1; of sampled refraction 1 + wi.m / |g|;
-  // of sampled visible normals, and of wo reflected about them, |(alpha_x (|c.x| + |s.x|), alpha_y (|c.y| +
-  // |s.y|), c.z + s.z)| over the same of c + s, where c is the point of the cap and s the stretched view; of
-  // Beckmann's |(alpha_x (|e.x| T + |e.y y|), alpha_y (|e.y| T + |e.x y|), 1)| over the same of (e.x t - e.y
-  // y, e.y t + e.x y), where t and y are the slopes at unit roughness, e the stretched view's azimuth, and T
-  // = |t| + N/(2 (a + t) exp(-t^2)). With A and B the parts of M (its note) above and below t, A/(2 (a + t)
-  // exp(-t^2)) is u1 |dt/du1|, what a rounding of u1 moves t by: N = A. Where it is less, N = B + exp(-t^2):
-  // B/(2 (a + t) exp(-t^2)) is what a rounding of 1 - u1 moves t by, and 1/(2 (a + t)) at least what one of a
-  // does, a |dt/da| = (1 - u1 exp(t^2 - a^2))/(2 (a + t)).
+  // Component of a unit vector: |got - exact| / ulp(kappa). kappa is 1; of sampled refraction 1 + wi.m / |g|,
+  // about visible normals times theirs; of sampled visible normals, and of wo reflected about them, |(alpha_x
+  // (|c.x| + |s.x|), alpha_y (|c.y| + |s.y|), c.z + s.z)| over the same of c + s, where c is the point of the
+  // cap and s the stretched view; of Beckmann's |(alpha_x (|e.x| T + |e.y y|), alpha_y (|e.y| T + |e.x y|),
+  // 1)| over the same of (e.x t - e.y y, e.y t + e.x y), where t and y are the slopes at unit roughness, e
+  // the stretched view's azimuth, and T = |t| + N/(2 (a + t) exp(-t^2)). With A and B the parts of M (its
+  // note) above and below t, A/(2 (a + t) exp(-t^2)) is u1 |dt/du1|, what a rounding of u1 moves t by: N = A.
+  // Where it is less, N = B + exp(-t^2): B/(2 (a + t) exp(-t^2)) is what a rounding of 1 - u1 moves t by, and
+  // 1/(2 (a + t)) at least what one of a does, a |dt/da| = (1 - u1 exp(t^2 - a^2))/(2 (a + t)).
   kDirection,
   // |got - exact| / (ulp(exact) * kappa), where kappa >= 1 is the amplification of an input rounding by
   // the geometry: kappa = (1 + 1/|wi.m|) (1 + (wi.m)^2/|g^2|) (1 + 1/|wo.z| + w), g of Walter 2007 Eq. 22,
@@ -46,7 +46,11 @@ enum class Metric {
   // + Lambda_o) (1/|wo.z| + 1/r) + (alpha_x + alpha_y)/(2 |wo.z| (1 + Lambda_i + Lambda_o)), of Beckmann,
   // with s = |(alpha_x wo.x, alpha_y wo.y)|, times exp(-(wo.z/s)^2)/(2 sqrt(pi)) (s/wo.z^2 + (alpha_x +
   // alpha_y)/|wo.z|)/(1 + Lambda_i + Lambda_o), at least the sum of |d ln(weight)/d wo.x|, ... d wo.y, ... d
-  // wo.z; judged where the error that kDirection allows is small beside wo.z and r/(alpha_x + alpha_y).
+  // wo.z; of separable masking Lambda_o/(1 + Lambda_o) and 1/(1 + Lambda_o) in these; of facets that do not
+  // reflect all, plus kDirection's kappa times |dF/d(wi.m)|/F. Judged where the error that kDirection allows
+  // is small beside wo.z, r/(alpha_x + alpha_y), and Schlick's F/|dF/d(wi.m)| or a conductor's |g^2|/|wi.m|.
+  // Of a dielectric about visible normals the first kappa, times that of the normal: of a density that of its
+  // density, of a weight kDirection's.
   kConditioned,
   kExact,  // an integer label; must agree
 };
@@ -162,9 +166,20 @@ inline constexpr std::string_view kReflectorNote =
 inline constexpr std::string_view kReflectorSampleNote =
     "m by D cos sampling, wi.m > 0 on wi's side, wo = 2 (wi.m) m - wi. weight = f |cos(theta_o)| / pdf in closed form (Walter 41). "
     "Where wo is not on wi's side: lobe 0, and every output 0.";
+inline constexpr std::string_view kReflectorSampleVisibleNote =
+    "m, wo and pdf of sample_visible_reflection of the distribution. weight = f |cos(theta_o)| / pdf = F G2/G1(wi) <= 1. wiz = 0 counts as "
+    "above. Where wo is not on wi's side: lobe 0, and every output 0.";
 inline constexpr std::string_view kSampleNote =
     "wi.m > 0 on wi's side, else none; u3 < F reflects. Outside its hemisphere: lobe 0, and every output 0. "
     "weight = f |cos(theta_o)| / pdf in closed form (Walter 41).";
+inline constexpr std::string_view kPdfVisibleNote =
+    "Solid-angle density of wo for sampling of the normals visible from wi (Heitz 16) and, with both lobes, choice by Fresnel.";
+inline constexpr std::string_view kSampleVisibleLobesNote =
+    "m of sample_visible_normal of the distribution, on wi's side; u3 < F reflects. Outside its hemisphere, and at wiz = 0: lobe 0, and "
+    "every output 0. weight = f |cos(theta_o)| / pdf = G2/G1(wi), at most 1 (importance: over eta^2 in transmission).";
+inline constexpr std::string_view kSampleVisibleLobeNote =
+    "As sample_visible with one lobe and no choice: weight = F or 1 - F times that, pdf without that factor; lobe 0 also where total "
+    "internal reflection leaves nothing to transmit.";
 inline constexpr std::string_view kSampleLobeNote =
     "As sample with one lobe and no choice: weight = F or 1 - F times Walter 41, pdf without that factor; lobe 0 also "
     "where total internal reflection leaves nothing to transmit.";
@@ -238,6 +253,7 @@ struct NormalQuantity {
   enum What {
     kD, kLambda, kG1, kDVisible, kSampleNormal, kSampleVisible, kSampleVisibleBounded,
     kSampleReflection, kSampleReflectionBounded,  // about a visible normal
+    kPdfReflection, kPdfReflectionBounded,        // of those
     kOwn
   };
   std::string_view lanes, outputs;
@@ -254,6 +270,8 @@ inline constexpr NormalQuantity kNormalQuantities[] = {
     {"vx vy vz u1 u2", "mx my mz pdf"},
     {"wix wiy wiz u1 u2", "wox woy woz weight pdf lobe"},
     {"wix wiy wiz u1 u2", "wox woy woz weight pdf lobe"},
+    {"wix wiy wiz wox woy woz", "pdf"},
+    {"wix wiy wiz wox woy woz", "pdf"},
 };
 
 inline constexpr std::string_view kStretch =
@@ -294,6 +312,14 @@ inline constexpr std::string_view kSampleReflectionNote =
 inline constexpr std::string_view kSampleReflectionBoundedNote =
     "As ggx.sample_visible_reflection with m of ggx.sample_visible_normal_bounded: weight times (1 + k s.z)/(1 + s.z), pdf over "
     "that.";
+inline constexpr std::string_view kPdfReflectionNote =
+    "Density with which sample_visible_reflection finds wo: G1(wi) D(h)/(4 |wiz|) = D(h)/(2 (|wiz| + sqrt(wiz^2 + (alpha_x wix)^2 + "
+    "(alpha_y wiy)^2))) of GGX, h the half vector; 0 where wiz or woz is 0, and for opposite sides.";
+inline constexpr std::string_view kPdfReflectionBeckmannNote =
+    "Density with which sample_visible_reflection finds wo: G1(wi) D(h)/(4 |wiz|), h the half vector; 0 where wiz or woz is 0, and "
+    "for opposite sides.";
+inline constexpr std::string_view kPdfReflectionBoundedNote =
+    "Density with which sample_visible_reflection_bounded finds wo: that of ggx.pdf_visible_reflection times (1 + s.z)/(1 + k s.z).";
 inline constexpr std::string_view kSampleGgxNote = "m = normalize(alpha_x r cos(2 pi u2), alpha_y r sin(2 pi u2), 1), r = sqrt(u1/(1 - u1)); pdf = D cos.";
 inline constexpr std::string_view kSampleBeckmannNote = "m = normalize(alpha_x r cos(2 pi u2), alpha_y r sin(2 pi u2), 1), r = sqrt(-log(1 - u1)); pdf = D cos.";
 inline constexpr std::string_view kPhongNote =
@@ -327,12 +353,16 @@ inline constexpr NormalRow kNormalRows[] = {
     {Normals::kGgx, NormalQuantity::kSampleReflection, "sample_visible_reflection", "Dupuy and Benyoub 2023; Heitz 2014 Eqs. 16, 99; Walter 2007 Eqs. 14, 39", kSampleReflectionNote, {{1, 24, 2800, 32, 24}, {1, 24, 2800, 32, 24}}},
     {Normals::kGgx, NormalQuantity::kSampleReflectionBounded, "sample_visible_reflection_bounded", "Eto and Tokuyoshi 2023; Heitz 2014 Eqs. 16, 99; Walter 2007 Eqs. 14, 39", kSampleReflectionBoundedNote, {{1, 24, 2800, 32, 24}, {1, 24, 2800, 32, 24}}},
 
+    {Normals::kGgx, NormalQuantity::kPdfReflection, "pdf_visible_reflection", "Heitz 2014 Eq. 16; Walter 2007 Eq. 14", kPdfReflectionNote, {{1, 16, 2800, 24, 300}, {1, 16, 2800, 24, 300}}},
+    {Normals::kGgx, NormalQuantity::kPdfReflectionBounded, "pdf_visible_reflection_bounded", "Eto and Tokuyoshi 2023; Heitz 2014 Eq. 16; Walter 2007 Eq. 14", kPdfReflectionBoundedNote, {{1, 16, 2800, 24, 300}, {1, 16, 2800, 24, 300}}},
+
     {Normals::kBeckmann, NormalQuantity::kD, "D", "Heitz 2014 Eq. 82; Walter 2007 Eq. 25", kStretchedExponent, {{1, 4, 2800, 8, 3000}, {1, 4, 2800, 8, 3000}, {1, 4, 200, 8, 8e4}, {1, 4, 200, 8, 8e4}}},
     {Normals::kBeckmann, NormalQuantity::kLambda, "Lambda", "Heitz 2014 Eqs. 69, 83", kLambdaExponentNote, {{1, 4, 1700, 8, 2200}, {1, 4, 1700, 8, 2200}, {1, 1, 1700, 1, 12000}, {1, 1, 1, 1, 12000}}},
     {Normals::kBeckmann, NormalQuantity::kG1, "G1", "Walter 2007 Eq. 26, stretched", kG1Note, {{1, 4, 2500, 8, 14}, {1, 4, 2500, 8, 14}, {1, 1, 2500, 1, 48}, {1, 1, 2500, 1, 48}}},
     {Normals::kBeckmann, NormalQuantity::kDVisible, "D_visible", "Heitz 2014 Eq. 16", kDVisibleBeckmannNote, {{1, 4, 4000, 8, 3000}, {1, 4, 4000, 8, 3000}, {1, 4, 2800, 8, 8e4}, {1, 4, 2800, 8, 8e4}}},
     {Normals::kBeckmann, NormalQuantity::kSampleVisible, "sample_visible_normal", "Heitz 2014 Eq. 16 by the inverse of its cumulative function", kSampleVisibleBeckmannNote, {{1, 24, 3300, 24, 24}, {1, 24, 3300, 24, 24}, {1, 1, 1, 1, 600}, {1, 1, 1, 1, 600}}},
     {Normals::kBeckmann, NormalQuantity::kSampleReflection, "sample_visible_reflection", "Heitz 2014 Eqs. 16, 99; Walter 2007 Eqs. 14, 39", kSampleReflectionNote, {{1, 16, 2800, 20, 18}, {1, 16, 2800, 20, 18}}},
+    {Normals::kBeckmann, NormalQuantity::kPdfReflection, "pdf_visible_reflection", "Heitz 2014 Eq. 16; Walter 2007 Eq. 14", kPdfReflectionBeckmannNote, {{1, 16, 3400, 24, 5000}, {1, 16, 3400, 24, 5000}}},
     {Normals::kBeckmann, NormalQuantity::kOwn, "G1_rational", "Walter 2007 Eq. 27, clamped at 1", "The error bound is against Eq. 27; Eq. 27 itself is within 0.313% of Eq. 26.", {{1, 4, 2300, 8, 6}}, "vx vy vz mx my mz | alpha_x alpha_y", "G1"},
     {Normals::kBeckmann, NormalQuantity::kSampleNormal, "sample_normal", "Walter 2007 Eqs. 24, 28, 29, stretched", kSampleBeckmannNote, {{1, 4, 2400, 8, 17}, {1, 4, 2400, 8, 17}, {1, 1, 1, 1, 400}, {1, 1, 1, 1, 400}}},
     {Normals::kBeckmann, NormalQuantity::kOwn, "sample_normal_widened", "Walter 2007 section 5.3", "beckmann.sample_normal with both alphas times 1.2 - 0.2 sqrt(|cos_i|).", {{1, 4, 3000, 8, 17}}, "u1 u2 cos_i | alpha_x alpha_y", "mx my mz pdf"},
@@ -343,7 +373,16 @@ inline constexpr NormalRow kNormalRows[] = {
     {Normals::kPhong, NormalQuantity::kSampleNormal, "sample_normal", "Walter 2007 Eqs. 24, 31, 32", "cos(theta_m) = u1^(1/(exponent + 2)); pdf = D cos. Double lanes round the logarithm of the density once.", {{}, {}, {}, {}, {1, 4, 1200, 8, 128}}},
 };
 
-// What the rough dielectric gives over each distribution of normals.
+// Whether sampling of visible normals is among a distribution's quantities.
+constexpr bool HasVisibleNormals(Normals normals) {
+  for (const NormalRow& row : kNormalRows) {
+    if (row.normals == normals && row.what == NormalQuantity::kSampleVisible) return true;
+  }
+  return false;
+}
+
+// What the rough dielectric gives over each distribution of normals; what has to do with visible normals, last, only where
+// the distribution has them.
 struct DielectricQuantity {
   enum What { kEval, kPdf, kEvalPdf, kSample };
   std::string_view name;
@@ -351,6 +390,7 @@ struct DielectricQuantity {
   bool reflects, transmits;  // both: the lobe is chosen by Fresnel
   bool separable;            // masking of the value; else height-correlated
   std::string_view source, note;
+  bool visible = false;  // density and samples are those of visible normals, not of D cos
 
   constexpr bool HasBothLobes() const { return reflects && transmits; }
   constexpr bool HasValue() const { return what != kPdf; }
@@ -374,6 +414,17 @@ inline constexpr DielectricQuantity kDielectricQuantities[] = {
     {"sample_separable", DielectricQuantity::kSample, true, true, true, "Walter 2007 section 5.3, Eqs. 23, 37-41", kSampleNote},
     {"sample_reflection_separable", DielectricQuantity::kSample, true, false, true, "Walter 2007 Eqs. 23, 37-39, 41", kSampleLobeNote},
     {"sample_transmission_separable", DielectricQuantity::kSample, false, true, true, "Walter 2007 Eqs. 23, 37, 38, 40, 41", kSampleLobeNote},
+    {"pdf_visible", DielectricQuantity::kPdf, true, true, false, "Walter 2007 Eqs. 14, 17, section 5.3; Heitz 2014 Eq. 16", kPdfVisibleNote, true},
+    {"pdf_visible_reflection", DielectricQuantity::kPdf, true, false, false, "Walter 2007 Eq. 14; Heitz 2014 Eq. 16", kPdfVisibleNote, true},
+    {"pdf_visible_transmission", DielectricQuantity::kPdf, false, true, false, "Walter 2007 Eq. 17; Heitz 2014 Eq. 16", kPdfVisibleNote, true},
+    {"eval_pdf_visible", DielectricQuantity::kEvalPdf, true, true, false, "Walter 2007 Eqs. 14, 17, 19-21; Heitz 2014 Eqs. 16, 99", "eval and pdf_visible in one call.", true},
+    {"eval_pdf_visible_separable", DielectricQuantity::kEvalPdf, true, true, true, "Walter 2007 Eqs. 14, 17, 19-21, 23; Heitz 2014 Eq. 16", "eval_separable and pdf_visible in one call.", true},
+    {"sample_visible", DielectricQuantity::kSample, true, true, false, "Walter 2007 section 5.3, Eqs. 37, 39, 40; Heitz 2014 Eqs. 16, 99", kSampleVisibleLobesNote, true},
+    {"sample_visible_reflection", DielectricQuantity::kSample, true, false, false, "Walter 2007 Eqs. 14, 39; Heitz 2014 Eqs. 16, 99", kSampleVisibleLobeNote, true},
+    {"sample_visible_transmission", DielectricQuantity::kSample, false, true, false, "Walter 2007 Eqs. 17, 40; Heitz 2014 Eqs. 16, 99", kSampleVisibleLobeNote, true},
+    {"sample_visible_separable", DielectricQuantity::kSample, true, true, true, "Walter 2007 section 5.3, Eqs. 23, 37, 39, 40; Heitz 2014 Eq. 16", kSampleVisibleLobesNote, true},
+    {"sample_visible_reflection_separable", DielectricQuantity::kSample, true, false, true, "Walter 2007 Eqs. 14, 23, 39; Heitz 2014 Eq. 16", kSampleVisibleLobeNote, true},
+    {"sample_visible_transmission_separable", DielectricQuantity::kSample, false, true, true, "Walter 2007 Eqs. 17, 23, 40; Heitz 2014 Eq. 16", kSampleVisibleLobeNote, true},
 };
 
 // What a facet of an opaque surface reflects, by its place in kReflectors.
@@ -392,7 +443,9 @@ inline constexpr ReflectorRow kReflectors[] = {
 };
 inline constexpr std::size_t kNumReflectors = std::size(kReflectors);
 
-// What opaque surfaces give over each distribution of normals. The density of wo is rough_dielectric's pdf_reflection.
+// What opaque surfaces give over each distribution of normals; those of visible normals, which stand last, only where the
+// distribution has them. The density alone is rough_dielectric's pdf_reflection, or the distribution's
+// pdf_visible_reflection.
 inline constexpr DielectricQuantity kReflectorQuantities[] = {
     {"eval", DielectricQuantity::kEval, true, false, false, "Walter 2007 Eq. 20; Heitz 2014 Eq. 99", kReflectorNote},
     {"eval_separable", DielectricQuantity::kEval, true, false, true, "Walter 2007 Eqs. 20, 23", kSeparableNote},
@@ -400,6 +453,10 @@ inline constexpr DielectricQuantity kReflectorQuantities[] = {
     {"eval_pdf_separable", DielectricQuantity::kEvalPdf, true, false, true, "Walter 2007 Eqs. 14, 20, 23, 24, 38", kEvalPdfSeparableNote},
     {"sample", DielectricQuantity::kSample, true, false, false, "Walter 2007 Eqs. 37-39, 41; Heitz 2014 Eq. 99", kReflectorSampleNote},
     {"sample_separable", DielectricQuantity::kSample, true, false, true, "Walter 2007 Eqs. 23, 37-39, 41", kReflectorSampleNote},
+    {"eval_pdf_visible", DielectricQuantity::kEvalPdf, true, false, false, "Walter 2007 Eqs. 14, 20; Heitz 2014 Eqs. 16, 99", "eval and the density with which sample_visible finds wo, in one call.", true},
+    {"eval_pdf_visible_separable", DielectricQuantity::kEvalPdf, true, false, true, "Walter 2007 Eqs. 14, 20, 23; Heitz 2014 Eq. 16", "eval_separable and the density with which sample_visible finds wo, in one call.", true},
+    {"sample_visible", DielectricQuantity::kSample, true, false, false, "Walter 2007 Eqs. 14, 39; Heitz 2014 Eqs. 16, 99", kReflectorSampleVisibleNote, true},
+    {"sample_visible_separable", DielectricQuantity::kSample, true, false, true, "Walter 2007 Eqs. 14, 23, 39; Heitz 2014 Eq. 16", kReflectorSampleVisibleNote, true},
 };
 
 // A distribution of normals in the models over it.
@@ -410,36 +467,38 @@ struct ModelFamily {
   Bounds value;                 // values and densities that transmit
   Bounds eval_reflection, pdf_reflection, sample;
   Bounds reflector_value[kNumReflectors], reflector_sample[kNumReflectors];
+  // NOLINTNEXTLINE(readability-redundant-member-init): rows without visible normals leave it out
+  Bounds reflector_sample_visible[kNumReflectors]{}, sample_visible{};
 
   constexpr const Bounds& BoundsOf(const DielectricQuantity& q) const {
-    return q.what == DielectricQuantity::kSample ? sample
+    return q.what == DielectricQuantity::kSample ? (q.visible ? sample_visible : sample)
            : q.transmits                         ? value
            : q.what == DielectricQuantity::kPdf  ? pdf_reflection
                                                  : eval_reflection;
   }
 };
 
-// Values in double lanes: cosines and g^2 are left with a relative error of 2^-33 where they cancel, next to the critical
+// Values in double lanes: cosines and g^2 are left with a relative error of 2^-32 where they cancel, next to the critical
 // angle and where a facet is seen edge-on. Samples, fast: the normal is within 2^-13, which refraction magnifies.
 inline constexpr ModelFamily kModelFamilies[] = {
     {"", "alpha_x alpha_y", "GGX: Walter 2007 Eqs. 33-36, stretched",
-     {1, 20, 6500, 24, 0x1p20}, {1, 18, 6500, 24, 0x1p14}, {1, 14, 2400, 20, 40}, {1, 24, 6500, 32, 17},
-     {{1, 14, 2300, 20, 250}, {1, 21, 5000, 24, 250}, {1, 17, 5600, 22, 4000}},
-     {{1, 14, 450, 16, 13}, {1, 14, 1000, 16, 13}, {1, 14, 450, 16, 13}}},
+     {1, 20, 6500, 24, 0x1p21}, {1, 18, 6500, 24, 0x1p14}, {1, 14, 2400, 20, 40}, {1, 24, 6500, 32, 17},
+     {{1, 14, 2900, 20, 250}, {1, 21, 5000, 24, 250}, {1, 17, 5600, 22, 4000}},
+     {{1, 14, 450, 16, 13}, {1, 14, 1000, 16, 13}, {1, 14, 450, 16, 13}},
+     {{1, 24, 2800, 32, 24}, {1, 24, 3400, 32, 60}, {1, 24, 2800, 32, 24}}, {1, 24, 6500, 32, 24}},
     {"_beckmann", "alpha_x alpha_y", "Beckmann: Walter 2007 Eqs. 25, 26, 28, 29, stretched",
-     {1, 19, 6500, 24, 0x1p20}, {1, 18, 6500, 24, 0x1p14}, {1, 14, 2400, 20, 3500}, {1, 24, 6500, 32, 17},
+     {1, 19, 6500, 24, 0x1p21}, {1, 18, 6500, 24, 0x1p14}, {1, 14, 2400, 20, 4800}, {1, 24, 6500, 32, 17},
      {{1, 14, 3400, 20, 4096}, {1, 20, 5800, 24, 4500}, {1, 17, 6500, 22, 4800}},
-     {{1, 14, 450, 16, 13}, {1, 14, 1000, 16, 13}, {1, 14, 450, 16, 13}}},
+     {{1, 14, 450, 16, 13}, {1, 14, 1000, 16, 13}, {1, 14, 450, 16, 13}},
+     {{1, 18, 2800, 20, 26}, {1, 18, 2800, 20, 40}, {1, 18, 2800, 20, 26}}, {1, 24, 6500, 32, 24}},
     {"_phong", "exponent", "Phong: Walter 2007 Eqs. 27, 30-32",
-     {1, 21, 6500, 24, 0x1p20}, {1, 20, 6500, 24, 0x1p14}, {1, 14, 2400, 20, 4200}, {1, 24, 4600, 32, 17},
+     {1, 21, 6500, 24, 0x1p21}, {1, 20, 6500, 24, 0x1p14}, {1, 14, 2400, 20, 4200}, {1, 24, 4600, 32, 17},
      {{1, 15, 4500, 20, 4800}, {1, 24, 7000, 24, 4800}, {1, 17, 7000, 22, 4800}},
      {{1, 6, 2700, 8, 6}, {1, 6, 2700, 8, 6}, {1, 6, 2700, 8, 6}}},
 };
 // clang-format on
 
 inline constexpr std::size_t kNumComponentKernels = std::size(kComponentKernels);
-inline constexpr std::size_t kNumDielectricQuantities = std::size(kDielectricQuantities);
-inline constexpr std::size_t kNumReflectorQuantities = std::size(kReflectorQuantities);
 inline constexpr std::size_t kNumModelFamilies = std::size(kModelFamilies);
 static_assert(kNumModelFamilies == std::size(kNormalFamilies), "both have a row for each of Normals");
 inline constexpr std::size_t kNumNormalRows = std::size(kNormalRows);
@@ -453,19 +512,60 @@ constexpr std::size_t CountNormalKernels() {
 }
 inline constexpr std::size_t kNumNormalKernels = CountNormalKernels();
 
+// How many of a model's quantities a distribution gives.
+template <std::size_t kSize>
+constexpr std::size_t CountQuantities(const DielectricQuantity (&quantities)[kSize], Normals normals) {
+  std::size_t count = 0;
+  for (const DielectricQuantity& q : quantities) count += !q.visible || HasVisibleNormals(normals) ? 1 : 0;
+  return count;
+}
+constexpr std::size_t NumDielectricQuantities(Normals normals) {
+  return CountQuantities(kDielectricQuantities, normals);
+}
+constexpr std::size_t NumReflectorQuantities(Normals normals) {
+  return CountQuantities(kReflectorQuantities, normals);
+}
+constexpr std::size_t NumReflectorKernels(Normals normals) {
+  return kNumReflectors * NumReflectorQuantities(normals);
+}
+
+// The first of a model's kernels over each distribution, from `first` on, and the end of the last.
+using FirstKernels = std::array<std::size_t, kNumModelFamilies + 1>;
+constexpr FirstKernels MakeFirstKernels(std::size_t first, std::size_t (*count)(Normals)) {
+  FirstKernels all{first};
+  for (std::size_t i = 0; i < kNumModelFamilies; ++i) all[i + 1] = all[i] + count(static_cast<Normals>(i));
+  return all;
+}
+constexpr std::size_t FamilyOf(std::size_t kernel, const FirstKernels& first) {
+  std::size_t family = kNumModelFamilies - 1;
+  while (kernel < first[family]) --family;
+  return family;
+}
+
 // Component kernels, then distributions of normals, then rough dielectrics, then opaque surfaces.
 inline constexpr std::size_t kFirstDielectricKernel = kNumComponentKernels + kNumNormalKernels;
-inline constexpr std::size_t kFirstReflectorKernel =
-    kFirstDielectricKernel + kNumModelFamilies * kNumDielectricQuantities;
-inline constexpr std::size_t kNumReflectorKernels =
-    kNumModelFamilies * kNumReflectors * kNumReflectorQuantities;
-inline constexpr std::size_t kNumKernels = kFirstReflectorKernel + kNumReflectorKernels;
+inline constexpr FirstKernels kFirstDielectricKernels =
+    MakeFirstKernels(kFirstDielectricKernel, NumDielectricQuantities);
+inline constexpr std::size_t kFirstReflectorKernel = kFirstDielectricKernels[kNumModelFamilies];
+inline constexpr FirstKernels kFirstReflectorKernels =
+    MakeFirstKernels(kFirstReflectorKernel, NumReflectorKernels);
+inline constexpr std::size_t kNumKernels = kFirstReflectorKernels[kNumModelFamilies];
+inline constexpr std::size_t kNumDielectricKernels = kFirstReflectorKernel - kFirstDielectricKernel;
+inline constexpr std::size_t kNumReflectorKernels = kNumKernels - kFirstReflectorKernel;
 inline constexpr std::size_t kMaxInputs = 11;
 inline constexpr std::size_t kMaxOutputs = 6;
 
-// Index into kKernels of a quantity, itself an index into kDielectricQuantities.
+// A rough dielectric's kernel: its distribution of normals and place in kDielectricQuantities.
+struct DielectricKernelPlace {
+  Normals normals;
+  std::size_t quantity;
+};
 constexpr std::size_t DielectricKernel(Normals normals, std::size_t quantity) {
-  return kFirstDielectricKernel + static_cast<std::size_t>(normals) * kNumDielectricQuantities + quantity;
+  return kFirstDielectricKernels[static_cast<std::size_t>(normals)] + quantity;
+}
+constexpr DielectricKernelPlace PlaceOfDielectricKernel(std::size_t kernel) {
+  const std::size_t family = FamilyOf(kernel, kFirstDielectricKernels);
+  return {static_cast<Normals>(family), kernel - kFirstDielectricKernels[family]};
 }
 
 // An opaque surface's kernel: its distribution of normals, reflectance and place in kReflectorQuantities.
@@ -475,15 +575,14 @@ struct ReflectorKernelPlace {
   std::size_t quantity;
 };
 constexpr std::size_t ReflectorKernel(const ReflectorKernelPlace& place) {
-  const std::size_t normals = static_cast<std::size_t>(place.normals),
-                    reflector = static_cast<std::size_t>(place.reflector);
-  return kFirstReflectorKernel + (normals * kNumReflectors + reflector) * kNumReflectorQuantities +
-         place.quantity;
+  return kFirstReflectorKernels[static_cast<std::size_t>(place.normals)] +
+         static_cast<std::size_t>(place.reflector) * NumReflectorQuantities(place.normals) + place.quantity;
 }
 constexpr ReflectorKernelPlace PlaceOfReflectorKernel(std::size_t kernel) {
-  const std::size_t i = kernel - kFirstReflectorKernel, family = i / kNumReflectorQuantities;
-  return {static_cast<Normals>(family / kNumReflectors), static_cast<Reflector>(family % kNumReflectors),
-          i % kNumReflectorQuantities};
+  const std::size_t family = FamilyOf(kernel, kFirstReflectorKernels);
+  const std::size_t i = kernel - kFirstReflectorKernels[family],
+                    count = NumReflectorQuantities(static_cast<Normals>(family));
+  return {static_cast<Normals>(family), static_cast<Reflector>(i / count), i % count};
 }
 
 // A kernel of a distribution of normals: its place in kNormalRows, and its kind of roughness.
@@ -518,10 +617,11 @@ constexpr std::size_t NormalKernel(Normals normals, NormalQuantity::What what, R
 }
 
 // Index into kReflectorQuantities, or their number if there is none.
-constexpr std::size_t FindReflectorQuantity(DielectricQuantity::What what, bool separable) {
+constexpr std::size_t FindReflectorQuantity(DielectricQuantity::What what, bool separable,
+                                            bool visible = false) {
   std::size_t i = 0;
-  while (i < kNumReflectorQuantities &&
-         (kReflectorQuantities[i].what != what || kReflectorQuantities[i].separable != separable)) {
+  for (const DielectricQuantity& q : kReflectorQuantities) {
+    if (q.what == what && q.separable == separable && q.visible == visible) break;
     ++i;
   }
   return i;
@@ -529,13 +629,14 @@ constexpr std::size_t FindReflectorQuantity(DielectricQuantity::What what, bool 
 
 // Index into kDielectricQuantities, or their number if there is none.
 constexpr std::size_t FindDielectricQuantity(DielectricQuantity::What what, bool reflects, bool transmits,
-                                             bool separable) {
+                                             bool separable, bool visible = false) {
   std::size_t i = 0;
-  for (; i < kNumDielectricQuantities; ++i) {
-    const DielectricQuantity& q = kDielectricQuantities[i];
-    if (q.what == what && q.reflects == reflects && q.transmits == transmits && q.separable == separable) {
+  for (const DielectricQuantity& q : kDielectricQuantities) {
+    if (q.what == what && q.reflects == reflects && q.transmits == transmits && q.separable == separable &&
+        q.visible == visible) {
       break;
     }
+    ++i;
   }
   return i;
 }
@@ -593,10 +694,12 @@ constexpr ModelText MakeModelText(std::string_view id, std::string_view paramete
 }
 
 constexpr auto MakeDielectricText() {
-  std::array<ModelText, kNumModelFamilies * kNumDielectricQuantities> text{};
+  std::array<ModelText, kNumDielectricKernels> text{};
   for (std::size_t i = 0; i < text.size(); ++i) {
-    text[i] = MakeModelText("rough_dielectric", " eta", "", kModelFamilies[i / kNumDielectricQuantities],
-                            kDielectricQuantities[i % kNumDielectricQuantities]);
+    const DielectricKernelPlace place = PlaceOfDielectricKernel(kFirstDielectricKernel + i);
+    text[i] =
+        MakeModelText("rough_dielectric", " eta", "", kModelFamilies[static_cast<std::size_t>(place.normals)],
+                      kDielectricQuantities[place.quantity]);
   }
   return text;
 }
@@ -637,10 +740,11 @@ constexpr std::array<Kernel, kNumKernels> MakeKernels() {
     kernels[kernel] = {text.id.view(), text.inputs.view(), outputs[q.what], text.source.view(),
                        q.note,         has_transport,      bounds};
   };
-  for (std::size_t i = 0; i < kDielectricText.size(); ++i) {
-    const DielectricQuantity& q = kDielectricQuantities[i % kNumDielectricQuantities];
+  for (std::size_t i = 0; i < kNumDielectricKernels; ++i) {
+    const DielectricKernelPlace place = PlaceOfDielectricKernel(kFirstDielectricKernel + i);
+    const DielectricQuantity& q = kDielectricQuantities[place.quantity];
     add_model(kFirstDielectricKernel + i, kDielectricText[i], q, q.HasValue() && q.transmits,
-              kModelFamilies[i / kNumDielectricQuantities].BoundsOf(q));
+              kModelFamilies[static_cast<std::size_t>(place.normals)].BoundsOf(q));
   }
   for (std::size_t i = 0; i < kNumReflectorKernels; ++i) {
     const ReflectorKernelPlace place = PlaceOfReflectorKernel(kFirstReflectorKernel + i);
@@ -648,8 +752,9 @@ constexpr std::array<Kernel, kNumKernels> MakeKernels() {
     const std::size_t reflector = static_cast<std::size_t>(place.reflector);
     const DielectricQuantity& q = kReflectorQuantities[place.quantity];
     add_model(kFirstReflectorKernel + i, kReflectorText[i], q, false,
-              q.what == DielectricQuantity::kSample ? family.reflector_sample[reflector]
-                                                    : family.reflector_value[reflector]);
+              q.what != DielectricQuantity::kSample ? family.reflector_value[reflector]
+              : q.visible                           ? family.reflector_sample_visible[reflector]
+                                                    : family.reflector_sample[reflector]);
   }
   return kernels;
 }

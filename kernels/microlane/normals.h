@@ -101,6 +101,18 @@ class NormalLanes {
         CallBuilder<T>().In(wi).In(u1).In(u2).Out(wo).Out(weight).Out(pdf).Out(lobe), p..., accuracy, n);
   }
 
+  // Densities with which SampleVisibleReflection, and SampleVisibleReflectionBounded, find wo, in 1/sr; 0
+  // where wi or wo lies in the surface, and for opposite sides. pdf_visible_reflection,
+  // pdf_visible_reflection_bounded.
+  static void PdfVisibleReflection(std::size_t n, const Directions<T>& wi, const Directions<T>& wo,
+                                   const P&... p, T* pdf, Accuracy accuracy = Accuracy::kStandard) {
+    Run<NormalQuantity::kPdfReflection>(CallBuilder<T>().In(wi).In(wo).Out(pdf), p..., accuracy, n);
+  }
+  static void PdfVisibleReflectionBounded(std::size_t n, const Directions<T>& wi, const Directions<T>& wo,
+                                          const P&... p, T* pdf, Accuracy accuracy = Accuracy::kStandard) {
+    Run<NormalQuantity::kPdfReflectionBounded>(CallBuilder<T>().In(wi).In(wo).Out(pdf), p..., accuracy, n);
+  }
+
  private:
   template <NormalQuantity::What kWhat>
   static void Run(CallBuilder<T>& call, const P&... p, Accuracy accuracy, std::size_t n) {
@@ -117,6 +129,8 @@ class NormalCalls : Lanes... {
   using Lanes::DVisible...;
   using Lanes::G1...;
   using Lanes::Lambda...;
+  using Lanes::PdfVisibleReflection...;
+  using Lanes::PdfVisibleReflectionBounded...;
   using Lanes::SampleNormal...;
   using Lanes::SampleVisibleNormal...;
   using Lanes::SampleVisibleNormalBounded...;

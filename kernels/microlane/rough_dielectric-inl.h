@@ -5,6 +5,8 @@
 //   f_r |cos o| = F |H|^4 K / 4              * G/|i.n| * |o.n| / |o.n|
 //   f_t |cos o| = eta^2 |i.H| |o.H| (1-F) K  * G/|i.n|
 //   pdf_r       = K Hz |o.H|,   pdf_t = eta^2 K Hz |o.H|
+// and, of normals visible from i (Heitz 2014 Eq. 16) in place of D cos,
+//   pdf_r       = |H|^4 K / 4 G1(i)/|i.n|,   pdf_t = eta^2 |i.H| |o.H| K G1(i)/|i.n|
 // so no vector is normalised, and one division serves F, K and G.
 #if defined(MICROLANE_ROUGH_DIELECTRIC_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef MICROLANE_ROUGH_DIELECTRIC_INL_H_
@@ -25,7 +27,8 @@ namespace HWY_NAMESPACE {
 namespace {
 
 enum class Lobes { kReflection, kTransmission, kBoth };
-enum class JointMasking { kSeparable, kHeightCorrelated };  // Walter 2007 Eq. 23; Heitz 2014 Eq. 99
+// What densities are of: D cos; visible normals; those of Dist's smaller cap for reflection.
+enum class Drawn { kNormals, kVisible, kBoundedVisible };
 
 // The lane's own of two values of lobes.
 template <Lobes kLobes, class M, class V>
@@ -248,17 +251,19 @@ struct FacetTerms {
 
 // One pass, of the lobes of Interface. In float lanes `hard` marks the lanes that double lanes must do: some
 // product may have underflowed, or cancellation has taken too much.
-template <class Dist, class Interface, Lobes kLobes, JointMasking kG, bool kValue, bool kPdf, Accuracy A,
-          class D, class... P>
+template <class Dist, class Interface, Lobes kLobes, JointMasking kG, bool kValue, bool kPdf, Drawn kDrawn,
+          Accuracy A, class D, class... P>
 HWY_INLINE void RoughSurfacePass(D d, hn::Mask<D> radiance, Vec<D>& value, Vec<D>& pdf, hn::Mask<D>& hard,
                                  const FacetTerms<D>& terms, Vec<D> ix, Vec<D> iy, Vec<D> iz, Vec<D> ox,
                                  Vec<D> oy, Vec<D> oz, Vec<D> q0, Vec<D> q1, P... p) {
   constexpr bool kDielectric = std::is_same_v<Interface, DielectricInterface>;
   static_assert(kDielectric || kLobes == Lobes::kReflection, "opaque surfaces reflect alone");
   constexpr bool kReflects = kLobes != Lobes::kTransmission, kTransmits = kLobes != Lobes::kReflection;
+  constexpr bool kOfVisible = kPdf && kDrawn != Drawn::kNormals;
   constexpr bool kWide = !kIsFloat<D>, kFast = A == Accuracy::kFast;
   constexpr bool kNeedsFresnel = !Interface::kReflectsAll && (kValue || kLobes == Lobes::kBoth);
-  constexpr bool kNeedsG = kNeedsFresnel && Interface::kHasG, kNeedsCosines = kTransmits || kPdf;
+  constexpr bool kNeedsG = kNeedsFresnel && Interface::kHasG,
+                 kNeedsCosines = kTransmits || (kPdf && kDrawn == Drawn::kNormals);
   const Vec<D> eta = q0;
   const Vec<D> zero = hn::Zero(d), one = Const(d, 1);
   // i to the upper side.
@@ -371,7 +376,7 @@ HWY_INLINE void RoughSurfacePass(D d, hn::Mask<D> radiance, Vec<D>& value, Vec<D
   // reflection.
   Vec<D> density = one, unused = zero, w;
   constexpr Care kDensityCare = kSplit ? Care::kCompensated : Care::kPlain;
-  constexpr bool kCancels = Dist::kDensityOfCosine && !kPdf;
+  constexpr bool kCancels = Dist::kDensityOfCosine && (!kPdf || kOfVisible);
   if constexpr (Dist::kDensityOfCosine) {
     w = Dist::Norm(d, p...);
   } else {
@@ -399,10 +404,19 @@ HWY_INLINE void RoughSurfacePass(D d, hn::Mask<D> radiance, Vec<D>& value, Vec<D
     m2 = hn::MulAdd(twice_p, s2, n);
   }
 
-  // masking: G/|i.n| |o.n| = kMaskingFactor zo / masking.
-  Vec<D> masking = one;
+  // masking: G/|i.n| |o.n| = kMaskingFactor zo / masking. visible: G1(i)/|i.n| = 2 / visible, or more of the
+  // share of visible normals that are drawn from.
+  Vec<D> masking = one, visible = one, mu_i = one;
+  if constexpr (kValue || kOfVisible) mu_i = Dist::template Masking<Care::kPlain, A>(d, ix, iy, iz, p...);
+  if constexpr (kDrawn == Drawn::kBoundedVisible) {
+    Vec<D> factor, over;
+    Dist::template LeftOut<A>(d, factor, over, ix, iy, iz, p...);
+    visible = hn::NegMulAdd(factor, over, hn::Add(mu_i, iz));
+  } else if constexpr (kOfVisible) {
+    visible = hn::Add(mu_i, iz);
+  }
+  if constexpr (kOfVisible && !kValue) masking = visible;
   if constexpr (kValue) {
-    const Vec<D> mu_i = Dist::template Masking<Care::kPlain, A>(d, ix, iy, iz, p...);
     const Vec<D> mu_o = Dist::template Masking<Care::kPlain, A>(d, ox, oy, zo, p...);
     masking = MaskingDenominator<kG>(iz, mu_i, zo, mu_o);
   }
@@ -442,7 +456,7 @@ HWY_INLINE void RoughSurfacePass(D d, hn::Mask<D> radiance, Vec<D>& value, Vec<D
     constexpr bool kHasReflectance = kNeedsFresnel && !kTransmits;
     Vec<D> low = hn::Min(ws, kHasReflectance && kDielectric ? fresnel : hn::Mul(h2, h4));
     if constexpr (kHasReflectance && !kDielectric) low = hn::Min(low, fresnel);
-    if constexpr (kValue) low = hn::Min(low, masking);
+    if constexpr (kValue || kOfVisible) low = hn::Min(low, masking);
     hard =
         hn::Or(hard, hn::Or(hn::Lt(low, Const(d, 0x1p-42)), OutOfRange(d, denominator, 0x1p-70f, 0x1p120f)));
   }
@@ -462,26 +476,29 @@ HWY_INLINE void RoughSurfacePass(D d, hn::Mask<D> radiance, Vec<D>& value, Vec<D
                                           signed_hz, hx_tail, hy_tail, hz_tail, p...);
   }
 
-  if constexpr (kValue) {
-    // f_r |o.n| = F |H|^4 K/4 G/|i.n|, f_t |o.n| = eta^2 |i.H| |o.H| T K G/|i.n|.
-    Vec<D> reflection = one, transmission = one;
+  // |H|^4, of both lobes |H|^4 / 4; and |i.H| |o.H|.
+  Vec<D> reflection = one, transmission = one;
+  if constexpr (kValue || kOfVisible) {
     const Vec<D> left_of_h4 = kCancels ? one : h4;
     if constexpr (kReflects) reflection = kTransmits ? hn::Mul(left_of_h4, Const(d, 0.25)) : left_of_h4;
     if constexpr (kTransmits) {
-      const Vec<D> ihoh = kWide ? hn::Mul(hn::Mul(ih, scale), hn::Mul(oh, scale)) : hn::Mul(ih, oh);
-      transmission = hn::Mul(ihoh, hn::IfThenElse(radiance, eta2, one));
+      transmission = kWide ? hn::Mul(hn::Mul(ih, scale), hn::Mul(oh, scale)) : hn::Mul(ih, oh);
     }
-    const Vec<D> x = kReflects && kTransmits ? hn::IfThenElse(transmits, transmission, reflection)
-                     : kReflects             ? reflection
-                                             : transmission;
+  }
+  if constexpr (kValue) {
+    // f_r |o.n| = F |H|^4 K/4 G/|i.n|, f_t |o.n| = eta^2 |i.H| |o.H| T K G/|i.n|.
+    Vec<D> transmitted = one;
+    if constexpr (kTransmits) transmitted = hn::Mul(transmission, hn::IfThenElse(radiance, eta2, one));
+    const Vec<D> x = OfLobe<kLobes>(transmits, transmitted, reflection);
     const Vec<D> numerator = hn::Mul(hn::Mul(kPdf ? hn::Mul(ws, Const(d, kFactor)) : ws, x), fresnel);
     value = hn::Mul(kPdf || kRefined ? hn::Mul(numerator, r) : Div<A>(d, numerator, denominator), zo);
     if constexpr (Dist::kHasExponent) value = ExpTimes<A>(d, log_high, log_low, value);
     value = ZeroIf(invalid, value);
   }
   if constexpr (kPdf) {
-    // K Hz |o.H| (eta^2 and F or T where they apply).
+    // K Hz |o.H|, or K |H|^4 / (2 visible) and 2 K |i.H| |o.H| / visible (eta^2 and F or T where they apply).
     Vec<D> x = ws;
+    if constexpr (kOfVisible) x = hn::Mul(ws, OfLobe<kLobes>(transmits, transmission, reflection));
     if constexpr (kLobes == Lobes::kTransmission) {
       x = hn::Mul(x, eta2);
     } else if constexpr (kLobes == Lobes::kBoth) {
@@ -491,91 +508,103 @@ HWY_INLINE void RoughSurfacePass(D d, hn::Mask<D> radiance, Vec<D>& value, Vec<D
       if constexpr (kNeedsFresnel) x = hn::Mul(x, hn::Mul(hn::Mul(a, a), m2));
     }
     x = kValue ? hn::Mul(hn::Mul(x, masking), r) : Div<A>(d, x, denominator);
-    x = hn::Mul(hn::Mul(x, kWide ? hn::Mul(oh, scale) : oh), kWide ? hn::Mul(hz, scale) : hz);
+    if constexpr (kOfVisible) {
+      x = hn::Mul(x, Const(d, kTransmits ? 2 : 0.5));
+      if constexpr (kValue) x = Div<A>(d, x, visible);
+    } else {
+      x = hn::Mul(hn::Mul(x, kWide ? hn::Mul(oh, scale) : oh), kWide ? hn::Mul(hz, scale) : hz);
+    }
     if constexpr (Dist::kHasExponent) x = ExpTimes<A>(d, log_high, log_low, x);
     pdf = ZeroIf(invalid, x);
   }
 }
 
 // RoughSurfacePass in double lanes; `radiance` as a number, 1 or 0.
-template <class Dist, class Interface, Lobes kLobes, JointMasking kG, bool kValue, bool kPdf>
+template <class Dist, class Interface, Lobes kLobes, JointMasking kG, bool kValue, bool kPdf, Drawn kDrawn>
 struct RoughSurfaceOp {
   template <class DD, class... In>
   static HWY_INLINE void Run(DD dd, Vec<DD>& value, Vec<DD>& pdf, Vec<DD> radiance, In... in) {
     hn::Mask<DD> none = hn::MaskFromVec(hn::Zero(dd));
     Vec<DD> c2, s2, s2_tail;
     value = pdf = hn::Zero(dd);
-    RoughSurfacePass<Dist, Interface, kLobes, kG, kValue, kPdf, Accuracy::kStandard>(
+    RoughSurfacePass<Dist, Interface, kLobes, kG, kValue, kPdf, kDrawn, Accuracy::kStandard>(
         dd, hn::Gt(radiance, hn::Zero(dd)), value, pdf, none, FacetTerms<DD>{c2, s2, s2_tail}, in...);
   }
 };
 
 // Out of line: few lanes need it.
-template <class Dist, class Interface, Lobes kLobes, JointMasking kG, bool kValue, bool kPdf, class D,
-          class... In>
+template <class Dist, class Interface, Lobes kLobes, JointMasking kG, bool kValue, bool kPdf, Drawn kDrawn,
+          class D, class... In>
 HWY_NOINLINE void RoughSurfaceInDouble(D d, hn::Mask<D> radiance, Vec<D>& value, Vec<D>& pdf, In... in) {
-  InDouble2<RoughSurfaceOp<Dist, Interface, kLobes, kG, kValue, kPdf>>(
+  InDouble2<RoughSurfaceOp<Dist, Interface, kLobes, kG, kValue, kPdf, kDrawn>>(
       d, value, pdf, hn::IfThenElseZero(radiance, Const(d, 1)), in...);
 }
 
 // RoughSurfacePass, then what it found hard in double lanes. q0 and q1: parameters of Interface, 0 where it
 // has none.
-template <class Dist, class Interface, Lobes kLobes, JointMasking kG, bool kValue, bool kPdf, Accuracy A,
-          class D, class... P>
+template <class Dist, class Interface, Lobes kLobes, JointMasking kG, bool kValue, bool kPdf, Drawn kDrawn,
+          Accuracy A, class D, class... P>
 HWY_INLINE void RoughSurfaceOfBoth(D d, hn::Mask<D> radiance, Vec<D>& value, Vec<D>& pdf, Vec<D> ix,
                                    Vec<D> iy, Vec<D> iz, Vec<D> ox, Vec<D> oy, Vec<D> oz, Vec<D> q0,
                                    Vec<D> q1, P... p) {
   hn::Mask<D> hard = hn::MaskFromVec(hn::Zero(d));
   Vec<D> c2, s2, s2_tail;
-  RoughSurfacePass<Dist, Interface, kLobes, kG, kValue, kPdf, A>(
+  RoughSurfacePass<Dist, Interface, kLobes, kG, kValue, kPdf, kDrawn, A>(
       d, radiance, value, pdf, hard, FacetTerms<D>{c2, s2, s2_tail}, ix, iy, iz, ox, oy, oz, q0, q1, p...);
   if (kIsFloat<D> && HWY_UNLIKELY(!hn::AllFalse(d, hard))) {
     Vec<D> hard_value, hard_pdf;
-    RoughSurfaceInDouble<Dist, Interface, kLobes, kG, kValue, kPdf>(d, radiance, hard_value, hard_pdf, ix, iy,
-                                                                    iz, ox, oy, oz, q0, q1, p...);
+    RoughSurfaceInDouble<Dist, Interface, kLobes, kG, kValue, kPdf, kDrawn>(
+        d, radiance, hard_value, hard_pdf, ix, iy, iz, ox, oy, oz, q0, q1, p...);
     if constexpr (kValue) value = hn::IfThenElse(hard, hard_value, value);
     if constexpr (kPdf) pdf = hn::IfThenElse(hard, hard_pdf, pdf);
   }
 }
-template <class Dist, class Interface, Lobes kLobes, JointMasking kG, bool kValue, bool kPdf, Accuracy A,
-          class D, class... P>
+template <class Dist, class Interface, Lobes kLobes, JointMasking kG, bool kValue, bool kPdf, Drawn kDrawn,
+          Accuracy A, class D, class... P>
 HWY_INLINE void RoughSurfaceOfOne(D d, hn::Mask<D> radiance, Vec<D>& value, Vec<D>& pdf, Vec<D> ix, Vec<D> iy,
                                   Vec<D> iz, Vec<D> ox, Vec<D> oy, Vec<D> oz, Vec<D> q0, P... p) {
-  RoughSurfaceOfBoth<Dist, Interface, kLobes, kG, kValue, kPdf, A>(d, radiance, value, pdf, ix, iy, iz, ox,
-                                                                   oy, oz, q0, hn::Zero(d), p...);
+  RoughSurfaceOfBoth<Dist, Interface, kLobes, kG, kValue, kPdf, kDrawn, A>(
+      d, radiance, value, pdf, ix, iy, iz, ox, oy, oz, q0, hn::Zero(d), p...);
 }
 
 // f |cos o| into `value` if kValue, the density of o into `pdf` if kPdf. `radiance`: mask of
 // Transport::kRadiance, of no effect in reflection. p: the parameters of Interface (DielectricInterface:
 // eta), then the distribution's.
-template <class Dist, class Interface, Lobes kLobes, JointMasking kG, bool kValue, bool kPdf, Accuracy A,
-          class D, class... P>
+template <class Dist, class Interface, Lobes kLobes, JointMasking kG, bool kValue, bool kPdf, Drawn kDrawn,
+          Accuracy A, class D, class... P>
 HWY_INLINE void RoughSurface(D d, hn::Mask<D> radiance, Vec<D>& value, Vec<D>& pdf, Vec<D> ix, Vec<D> iy,
                              Vec<D> iz, Vec<D> ox, Vec<D> oy, Vec<D> oz, P... p) {
   if constexpr (Interface::kParameters == 0) {
-    RoughSurfaceOfBoth<Dist, Interface, kLobes, kG, kValue, kPdf, A>(d, radiance, value, pdf, ix, iy, iz, ox,
-                                                                     oy, oz, hn::Zero(d), hn::Zero(d), p...);
+    RoughSurfaceOfBoth<Dist, Interface, kLobes, kG, kValue, kPdf, kDrawn, A>(
+        d, radiance, value, pdf, ix, iy, iz, ox, oy, oz, hn::Zero(d), hn::Zero(d), p...);
   } else if constexpr (Interface::kParameters == 1) {
-    RoughSurfaceOfOne<Dist, Interface, kLobes, kG, kValue, kPdf, A>(d, radiance, value, pdf, ix, iy, iz, ox,
-                                                                    oy, oz, p...);
+    RoughSurfaceOfOne<Dist, Interface, kLobes, kG, kValue, kPdf, kDrawn, A>(d, radiance, value, pdf, ix, iy,
+                                                                            iz, ox, oy, oz, p...);
   } else {
-    RoughSurfaceOfBoth<Dist, Interface, kLobes, kG, kValue, kPdf, A>(d, radiance, value, pdf, ix, iy, iz, ox,
-                                                                     oy, oz, p...);
+    RoughSurfaceOfBoth<Dist, Interface, kLobes, kG, kValue, kPdf, kDrawn, A>(d, radiance, value, pdf, ix, iy,
+                                                                             iz, ox, oy, oz, p...);
   }
 }
 
 // One pass of sampling. `hard` as in RoughSurfacePass.
-template <class Dist, class Interface, Lobes kLobes, JointMasking kG, Accuracy A, class D, class... P>
+template <class Dist, class Interface, Lobes kLobes, JointMasking kG, Drawn kDrawn, Accuracy A, class D,
+          class... P>
 HWY_INLINE void SampleRoughSurfacePass(D d, hn::Mask<D> radiance, Vec<D>& ox, Vec<D>& oy, Vec<D>& oz,
                                        Vec<D>& weight, Vec<D>& pdf, Vec<D>& lobe, hn::Mask<D>& hard,
                                        Vec<D> ix, Vec<D> iy, Vec<D> iz_signed, Vec<D> u1, Vec<D> u2,
                                        Vec<D> u3, Vec<D> q0, Vec<D> q1, P... p) {
   constexpr bool kWide = !kIsFloat<D>, kDielectric = std::is_same_v<Interface, DielectricInterface>;
+  constexpr bool kVisible = kDrawn == Drawn::kVisible;
   static_assert(kDielectric || kLobes == Lobes::kReflection, "opaque surfaces reflect alone");
+  static_assert(kDrawn != Drawn::kBoundedVisible, "the smaller cap leaves out normals that refract");
   const Vec<D> zero = hn::Zero(d), one = Const(d, 1);
   const Vec<D> iz = hn::Abs(iz_signed);
   Vec<D> mx, my, mz, pdf_m;
-  Dist::template SampleNormal<Care::kPlain, A>(d, mx, my, mz, pdf_m, u1, u2, p...);
+  if constexpr (kVisible) {
+    Dist::template SampleVisibleNormal<false, A>(d, mx, my, mz, pdf_m, ix, iy, iz_signed, u1, u2, p...);
+  } else {
+    Dist::template SampleNormal<Care::kPlain, A>(d, mx, my, mz, pdf_m, u1, u2, p...);
+  }
   // Below the surface the whole is turned over: m -> -m, then z -> -z.
   mx = FlipSign(d, mx, iz_signed);
   my = FlipSign(d, my, iz_signed);
@@ -585,8 +614,9 @@ HWY_INLINE void SampleRoughSurfacePass(D d, hn::Mask<D> radiance, Vec<D>& ox, Ve
   if constexpr (!kWide) {
     hard = hn::Lt(kDielectric ? hn::Min(hn::Abs(g2), hn::Abs(c)) : hn::Abs(c), Const(d, 0x1p-12));
   }
-  // A density of u1 near 0 may be subnormal.
-  if constexpr (!kWide && Dist::kDensityOfCosine) hard = hn::Or(hard, hn::Lt(pdf_m, Const(d, 0x1p-100)));
+  // A density of u1 near 0, or of a normal that is hardly visible, may be subnormal.
+  if constexpr (!kWide && (Dist::kDensityOfCosine || kVisible))
+    hard = hn::Or(hard, hn::Lt(pdf_m, Const(d, 0x1p-100)));
   g2 = hn::IfThenElse(hn::Lt(g2, zero), zero, g2);
   const Vec<D> g = Sqrt<A>(d, g2), root = hn::Mul(c, g);
   const Vec<D> s2 = hn::NegMulAdd(c, c, one);
@@ -625,16 +655,30 @@ HWY_INLINE void SampleRoughSurfacePass(D d, hn::Mask<D> radiance, Vec<D>& ox, Ve
   if constexpr (!kWide) hard = hn::Or(hard, hn::Lt(zo, Const(d, 0x1p-12)));
   const auto wrong_side = hn::Le(OfLobe<kLobes>(transmits, hn::Neg(oz), oz), zero);
   auto invalid = hn::Or(hn::Le(hn::Min(c, hn::Min(iz, mz)), zero), wrong_side);
+  // Of the zero vector no normal is visible: c and m are NaN.
+  if constexpr (kVisible) invalid = hn::Or(invalid, hn::Le(iz, zero));
   if constexpr (kLobes == Lobes::kTransmission) invalid = hn::Or(invalid, hn::Le(g2, zero));
 
-  const Vec<D> mu_i = Dist::template Masking<Care::kPlain, A>(d, ix, iy, iz, p...);
+  // weight = numerator / masking: c G/(|i.n| mz), or G2/G1(i) of visible normals.
   const Vec<D> mu_o = Dist::template Masking<Care::kPlain, A>(d, ox, oy, zo, p...);
-  const Vec<D> masking = MaskingDenominator<kG>(iz, mu_i, zo, mu_o);
-  const Vec<D> numerator =
-      hn::Mul(hn::Mul(Const(d, kMaskingFactor<kG>), zo), c);  // NOLINT(google-readability-casting)
+  Vec<D> numerator, masking;
+  if constexpr (kVisible && kG == JointMasking::kSeparable) {
+    numerator = hn::Add(zo, zo);
+    masking = hn::Add(zo, mu_o);
+  } else {
+    const Vec<D> mu_i = Dist::template Masking<Care::kPlain, A>(d, ix, iy, iz, p...);
+    masking = MaskingDenominator<kG>(iz, mu_i, zo, mu_o);
+    if constexpr (kVisible) {
+      numerator = hn::Mul(zo, hn::Add(iz, mu_i));
+    } else {
+      numerator =
+          hn::Mul(hn::Mul(Const(d, kMaskingFactor<kG>), zo), c);  // NOLINT(google-readability-casting)
+      masking = hn::Mul(mz, masking);
+    }
+  }
   // Radiance takes Eq. 41 as it is; importance loses the eta^2 of transmission.
   const Vec<D> lobe_factor = OfLobe<kLobes>(transmits, hn::IfThenElse(radiance, one, eta2), one);
-  const Vec<D> denominator = hn::Mul(hn::Mul(mz, masking), lobe_factor);
+  const Vec<D> denominator = hn::Mul(masking, lobe_factor);
   // Jacobians of Eqs. 14 and 17: 1/(4 c), and eta^2 (g/eta) / (c - g)^2 with c - g = -(eta^2 - 1)/(g + c).
   const Vec<D> jacobian_over = OfLobe<kLobes>(transmits, hn::Mul(hn::Mul(eta, g), hn::Mul(gc, gc)), one);
   const Vec<D> jacobian_under = OfLobe<kLobes>(transmits, hn::Mul(k, k), hn::Mul(Const(d, 4), c));
@@ -667,38 +711,39 @@ HWY_INLINE void SampleRoughSurfacePass(D d, hn::Mask<D> radiance, Vec<D>& ox, Ve
 // NOLINTEND(misc-const-correctness)
 
 // SampleRoughSurfacePass in double lanes; `radiance` as a number, 1 or 0.
-template <class Dist, class Interface, Lobes kLobes, JointMasking kG>
+template <class Dist, class Interface, Lobes kLobes, JointMasking kG, Drawn kDrawn>
 struct SampleRoughSurfaceOp {
   template <class DD, class... In>
   static HWY_INLINE void Run(DD dd, Vec<DD>& ox, Vec<DD>& oy, Vec<DD>& oz, Vec<DD>& weight, Vec<DD>& pdf,
                              Vec<DD>& lobe, Vec<DD> radiance, In... in) {
     hn::Mask<DD> none = hn::MaskFromVec(hn::Zero(dd));
-    SampleRoughSurfacePass<Dist, Interface, kLobes, kG, Accuracy::kStandard>(
+    SampleRoughSurfacePass<Dist, Interface, kLobes, kG, kDrawn, Accuracy::kStandard>(
         dd, hn::Gt(radiance, hn::Zero(dd)), ox, oy, oz, weight, pdf, lobe, none, in...);
   }
 };
 
 // Out of line: few lanes need it.
-template <class Dist, class Interface, Lobes kLobes, JointMasking kG, class D, class... In>
+template <class Dist, class Interface, Lobes kLobes, JointMasking kG, Drawn kDrawn, class D, class... In>
 HWY_NOINLINE void SampleRoughSurfaceInDouble(D d, hn::Mask<D> radiance, Vec<D>& ox, Vec<D>& oy, Vec<D>& oz,
                                              Vec<D>& weight, Vec<D>& pdf, Vec<D>& lobe, In... in) {
-  InDouble6<SampleRoughSurfaceOp<Dist, Interface, kLobes, kG>>(
+  InDouble6<SampleRoughSurfaceOp<Dist, Interface, kLobes, kG, kDrawn>>(
       d, ox, oy, oz, weight, pdf, lobe, hn::IfThenElseZero(radiance, Const(d, 1)), in...);
 }
 
 // SampleRoughSurfacePass, then what it found hard in double lanes. q0 and q1 as in RoughSurfaceOfBoth.
-template <class Dist, class Interface, Lobes kLobes, JointMasking kG, Accuracy A, class D, class... P>
+template <class Dist, class Interface, Lobes kLobes, JointMasking kG, Drawn kDrawn, Accuracy A, class D,
+          class... P>
 HWY_INLINE void SampleRoughSurfaceOfBoth(D d, hn::Mask<D> radiance, Vec<D>& ox, Vec<D>& oy, Vec<D>& oz,
                                          Vec<D>& weight, Vec<D>& pdf, Vec<D>& lobe, Vec<D> ix, Vec<D> iy,
                                          Vec<D> iz, Vec<D> u1, Vec<D> u2, Vec<D> u3, Vec<D> q0, Vec<D> q1,
                                          P... p) {
   hn::Mask<D> hard = hn::MaskFromVec(hn::Zero(d));
-  SampleRoughSurfacePass<Dist, Interface, kLobes, kG, A>(d, radiance, ox, oy, oz, weight, pdf, lobe, hard, ix,
-                                                         iy, iz, u1, u2, u3, q0, q1, p...);
+  SampleRoughSurfacePass<Dist, Interface, kLobes, kG, kDrawn, A>(d, radiance, ox, oy, oz, weight, pdf, lobe,
+                                                                 hard, ix, iy, iz, u1, u2, u3, q0, q1, p...);
   if (kIsFloat<D> && HWY_UNLIKELY(!hn::AllFalse(d, hard))) {
     Vec<D> ox_, oy_, oz_, weight_, pdf_, lobe_;
-    SampleRoughSurfaceInDouble<Dist, Interface, kLobes, kG>(d, radiance, ox_, oy_, oz_, weight_, pdf_, lobe_,
-                                                            ix, iy, iz, u1, u2, u3, q0, q1, p...);
+    SampleRoughSurfaceInDouble<Dist, Interface, kLobes, kG, kDrawn>(
+        d, radiance, ox_, oy_, oz_, weight_, pdf_, lobe_, ix, iy, iz, u1, u2, u3, q0, q1, p...);
     ox = hn::IfThenElse(hard, ox_, ox);
     oy = hn::IfThenElse(hard, oy_, oy);
     oz = hn::IfThenElse(hard, oz_, oz);
@@ -707,30 +752,32 @@ HWY_INLINE void SampleRoughSurfaceOfBoth(D d, hn::Mask<D> radiance, Vec<D>& ox, 
     lobe = hn::IfThenElse(hard, lobe_, lobe);
   }
 }
-template <class Dist, class Interface, Lobes kLobes, JointMasking kG, Accuracy A, class D, class... P>
+template <class Dist, class Interface, Lobes kLobes, JointMasking kG, Drawn kDrawn, Accuracy A, class D,
+          class... P>
 HWY_INLINE void SampleRoughSurfaceOfOne(D d, hn::Mask<D> radiance, Vec<D>& ox, Vec<D>& oy, Vec<D>& oz,
                                         Vec<D>& weight, Vec<D>& pdf, Vec<D>& lobe, Vec<D> ix, Vec<D> iy,
                                         Vec<D> iz, Vec<D> u1, Vec<D> u2, Vec<D> u3, Vec<D> q0, P... p) {
-  SampleRoughSurfaceOfBoth<Dist, Interface, kLobes, kG, A>(d, radiance, ox, oy, oz, weight, pdf, lobe, ix, iy,
-                                                           iz, u1, u2, u3, q0, hn::Zero(d), p...);
+  SampleRoughSurfaceOfBoth<Dist, Interface, kLobes, kG, kDrawn, A>(
+      d, radiance, ox, oy, oz, weight, pdf, lobe, ix, iy, iz, u1, u2, u3, q0, hn::Zero(d), p...);
 }
 
-// Walter 2007 section 5.3: m by Dist's D cos sampling, o by Eq. 39 or 40, the weight by Eq. 41. With both
-// lobes u3 chooses by Fresnel, else it has no effect and the weight carries F or 1 - F. p: the parameters of
-// Interface, then the distribution's.
-template <class Dist, class Interface, Lobes kLobes, JointMasking kG, Accuracy A, class D, class... P>
+// Walter 2007 section 5.3: m by Dist's D cos or visible sampling, o by Eq. 39 or 40, the weight by Eq. 41.
+// With both lobes u3 chooses by Fresnel, else it has no effect and the weight carries F or 1 - F. p: the
+// parameters of Interface, then the distribution's.
+template <class Dist, class Interface, Lobes kLobes, JointMasking kG, Drawn kDrawn, Accuracy A, class D,
+          class... P>
 HWY_INLINE void SampleRoughSurface(D d, hn::Mask<D> radiance, Vec<D>& ox, Vec<D>& oy, Vec<D>& oz,
                                    Vec<D>& weight, Vec<D>& pdf, Vec<D>& lobe, Vec<D> ix, Vec<D> iy, Vec<D> iz,
                                    Vec<D> u1, Vec<D> u2, Vec<D> u3, P... p) {
   if constexpr (Interface::kParameters == 0) {
-    SampleRoughSurfaceOfBoth<Dist, Interface, kLobes, kG, A>(
+    SampleRoughSurfaceOfBoth<Dist, Interface, kLobes, kG, kDrawn, A>(
         d, radiance, ox, oy, oz, weight, pdf, lobe, ix, iy, iz, u1, u2, u3, hn::Zero(d), hn::Zero(d), p...);
   } else if constexpr (Interface::kParameters == 1) {
-    SampleRoughSurfaceOfOne<Dist, Interface, kLobes, kG, A>(d, radiance, ox, oy, oz, weight, pdf, lobe, ix,
-                                                            iy, iz, u1, u2, u3, p...);
+    SampleRoughSurfaceOfOne<Dist, Interface, kLobes, kG, kDrawn, A>(d, radiance, ox, oy, oz, weight, pdf,
+                                                                    lobe, ix, iy, iz, u1, u2, u3, p...);
   } else {
-    SampleRoughSurfaceOfBoth<Dist, Interface, kLobes, kG, A>(d, radiance, ox, oy, oz, weight, pdf, lobe, ix,
-                                                             iy, iz, u1, u2, u3, p...);
+    SampleRoughSurfaceOfBoth<Dist, Interface, kLobes, kG, kDrawn, A>(d, radiance, ox, oy, oz, weight, pdf,
+                                                                     lobe, ix, iy, iz, u1, u2, u3, p...);
   }
 }
 

@@ -25,6 +25,12 @@ enum class JointMasking {
   kSeparable,         // G1(wi) G1(wo), Walter 2007 Eq. 23
 };
 
+// What normals are drawn from. Phong has no visible normals here: it always takes kNormals.
+enum class Sampling {
+  kVisibleNormals,  // Heitz 2014 Eq. 16
+  kNormals,         // D cos, Walter 2007 Eq. 24
+};
+
 // A surface with GGX or Beckmann normals. Each is one value or one per lane.
 template <class T>
 struct DielectricParameters {
@@ -75,46 +81,55 @@ class RoughDielectricLanes {
                                Transport transport = Transport::kRadiance,
                                JointMasking masking = JointMasking::kHeightCorrelated);
 
-  // Density with which Sample finds wo: D cos sampling of normals, choice of the lobe by Fresnel. Walter 2007
-  // Eqs. 24, 38, section 5.3. pdf.
+  // Density with which Sample finds wo: that of the normals, choice of the lobe by Fresnel. Walter 2007
+  // section 5.3; Heitz 2014 Eq. 16, or Walter 2007 Eqs. 24, 38. pdf_visible, pdf.
   static void Pdf(std::size_t n, const Directions<T>& wi, const Directions<T>& wo, const Surface& surface,
-                  T* pdf, Accuracy accuracy = Accuracy::kStandard);
+                  T* pdf, Accuracy accuracy = Accuracy::kStandard,
+                  Sampling sampling = Sampling::kVisibleNormals);
 
-  // Density with which SampleReflection finds wo. Walter 2007 Eqs. 14, 24, 38. pdf_reflection.
+  // Density with which SampleReflection finds wo. Walter 2007 Eq. 14. pdf_visible_reflection, pdf_reflection.
   static void PdfReflection(std::size_t n, const Directions<T>& wi, const Directions<T>& wo,
-                            const Surface& surface, T* pdf, Accuracy accuracy = Accuracy::kStandard);
+                            const Surface& surface, T* pdf, Accuracy accuracy = Accuracy::kStandard,
+                            Sampling sampling = Sampling::kVisibleNormals);
 
-  // Density with which SampleTransmission finds wo. Walter 2007 Eqs. 17, 24, 38. pdf_transmission.
+  // Density with which SampleTransmission finds wo. Walter 2007 Eq. 17. pdf_visible_transmission,
+  // pdf_transmission.
   static void PdfTransmission(std::size_t n, const Directions<T>& wi, const Directions<T>& wo,
-                              const Surface& surface, T* pdf, Accuracy accuracy = Accuracy::kStandard);
+                              const Surface& surface, T* pdf, Accuracy accuracy = Accuracy::kStandard,
+                              Sampling sampling = Sampling::kVisibleNormals);
 
-  // Eval and Pdf in one call. eval_pdf, eval_pdf_separable.
+  // Eval and Pdf in one call. eval_pdf_visible, eval_pdf, and these with _separable.
   static void EvalPdf(std::size_t n, const Directions<T>& wi, const Directions<T>& wo, const Surface& surface,
                       T* f_cos, T* pdf, Accuracy accuracy = Accuracy::kStandard,
                       Transport transport = Transport::kRadiance,
-                      JointMasking masking = JointMasking::kHeightCorrelated);
+                      JointMasking masking = JointMasking::kHeightCorrelated,
+                      Sampling sampling = Sampling::kVisibleNormals);
 
-  // Directions wo from uniform numbers in [0, 1): u1 and u2 find a normal, u3 the lobe. Walter 2007
-  // section 5.3, Eqs. 37-41. sample, sample_separable.
+  // Directions wo from uniform numbers in [0, 1): u1 and u2 find a normal, u3 the lobe. With normals that are
+  // visible from wi the weight is at most 1, for radiance. Walter 2007 section 5.3, Eqs. 37-41.
+  // sample_visible, sample, and these with _separable.
   static void Sample(std::size_t n, const Directions<T>& wi, const T* u1, const T* u2, const T* u3,
                      const Surface& surface, const DielectricSamples<T>& samples,
                      Accuracy accuracy = Accuracy::kStandard, Transport transport = Transport::kRadiance,
-                     JointMasking masking = JointMasking::kHeightCorrelated);
+                     JointMasking masking = JointMasking::kHeightCorrelated,
+                     Sampling sampling = Sampling::kVisibleNormals);
 
-  // As Sample with reflection at every normal. Walter 2007 Eqs. 37-39, 41. sample_reflection,
-  // sample_reflection_separable.
+  // As Sample with reflection at every normal. Walter 2007 Eqs. 37-39, 41. sample_visible_reflection,
+  // sample_reflection, and these with _separable.
   static void SampleReflection(std::size_t n, const Directions<T>& wi, const T* u1, const T* u2,
                                const Surface& surface, const DielectricSamples<T>& samples,
                                Accuracy accuracy = Accuracy::kStandard,
-                               JointMasking masking = JointMasking::kHeightCorrelated);
+                               JointMasking masking = JointMasking::kHeightCorrelated,
+                               Sampling sampling = Sampling::kVisibleNormals);
 
   // As Sample with refraction at every normal; lobe 0 under total internal reflection. Walter 2007 Eqs. 37,
-  // 38, 40, 41. sample_transmission, sample_transmission_separable.
+  // 38, 40, 41. sample_visible_transmission, sample_transmission, and these with _separable.
   static void SampleTransmission(std::size_t n, const Directions<T>& wi, const T* u1, const T* u2,
                                  const Surface& surface, const DielectricSamples<T>& samples,
                                  Accuracy accuracy = Accuracy::kStandard,
                                  Transport transport = Transport::kRadiance,
-                                 JointMasking masking = JointMasking::kHeightCorrelated);
+                                 JointMasking masking = JointMasking::kHeightCorrelated,
+                                 Sampling sampling = Sampling::kVisibleNormals);
 };
 
 // The calls over one distribution of normals, in float and double: T is that of the outputs.

@@ -100,6 +100,39 @@ struct SchlickFacets {
   }
 };
 
+// Reflection about a visible normal m, its density, and the weight F G2/G1(i). p: the parameters of Facets,
+// then the distribution's.
+template <class Dist, class Facets, JointMasking kG, Accuracy A, class D, class... P>
+HWY_INLINE void SampleVisibleOfBoth(D d, Vec<D>& ox, Vec<D>& oy, Vec<D>& oz, Vec<D>& weight, Vec<D>& pdf,
+                                    Vec<D>& lobe, Vec<D> ix, Vec<D> iy, Vec<D> iz, Vec<D> u1, Vec<D> u2,
+                                    Vec<D> q0, Vec<D> q1, P... p) {
+  Vec<D> cos2;
+  Dist::template SampleVisibleReflection<false, kG, A>(d, ox, oy, oz, weight, pdf, lobe, cos2, ix, iy, iz, u1,
+                                                       u2, p...);
+  if constexpr (!Facets::kReflectsAll) {
+    weight = hn::Mul(weight, Facets::template ReflectanceOfCosine<A>(d, Sqrt<A>(d, cos2), q0, q1));
+  }
+}
+template <class Dist, class Facets, JointMasking kG, Accuracy A, class D, class... P>
+HWY_INLINE void SampleVisibleOfOne(D d, Vec<D>& ox, Vec<D>& oy, Vec<D>& oz, Vec<D>& weight, Vec<D>& pdf,
+                                   Vec<D>& lobe, Vec<D> ix, Vec<D> iy, Vec<D> iz, Vec<D> u1, Vec<D> u2,
+                                   Vec<D> q0, P... p) {
+  SampleVisibleOfBoth<Dist, Facets, kG, A>(d, ox, oy, oz, weight, pdf, lobe, ix, iy, iz, u1, u2, q0,
+                                           hn::Zero(d), p...);
+}
+template <class Dist, class Facets, JointMasking kG, Accuracy A, class D, class... P>
+HWY_INLINE void SampleVisible(D d, Vec<D>& ox, Vec<D>& oy, Vec<D>& oz, Vec<D>& weight, Vec<D>& pdf,
+                              Vec<D>& lobe, Vec<D> ix, Vec<D> iy, Vec<D> iz, Vec<D> u1, Vec<D> u2, P... p) {
+  if constexpr (Facets::kParameters == 0) {
+    SampleVisibleOfBoth<Dist, Facets, kG, A>(d, ox, oy, oz, weight, pdf, lobe, ix, iy, iz, u1, u2,
+                                             hn::Zero(d), hn::Zero(d), p...);
+  } else if constexpr (Facets::kParameters == 1) {
+    SampleVisibleOfOne<Dist, Facets, kG, A>(d, ox, oy, oz, weight, pdf, lobe, ix, iy, iz, u1, u2, p...);
+  } else {
+    SampleVisibleOfBoth<Dist, Facets, kG, A>(d, ox, oy, oz, weight, pdf, lobe, ix, iy, iz, u1, u2, p...);
+  }
+}
+
 // f |cos o| of several channels, float lanes: D and G2 once, F for each. parameter(c, k) gives parameter k of
 // channel c's Facets, store(c, f) takes its value. p: the distribution's parameters. Not for kHigh.
 template <class Dist, class Facets, JointMasking kG, Accuracy A, class D, class Parameter, class Store,
@@ -112,7 +145,7 @@ HWY_INLINE void RoughReflectorChannels(D d, std::size_t channels, const Paramete
   const auto none = hn::MaskFromVec(zero);
   Vec<D> mirror, unused, c2, s2, s2_tail;
   hn::Mask<D> hard_mirror = none;
-  RoughSurfacePass<Dist, MirrorFacets, Lobes::kReflection, kG, true, false, A>(
+  RoughSurfacePass<Dist, MirrorFacets, Lobes::kReflection, kG, true, false, Drawn::kNormals, A>(
       d, none, mirror, unused, hard_mirror, FacetTerms<D>{c2, s2, s2_tail}, ix, iy, iz, ox, oy, oz, zero,
       zero, p...);
   for (std::size_t channel = 0; channel < channels; ++channel) {
@@ -126,7 +159,7 @@ HWY_INLINE void RoughReflectorChannels(D d, std::size_t channels, const Paramete
     Vec<D> value = hn::Mul(mirror, Div<A>(d, f, hn::Mul(hn::Mul(a, a), m2)));
     if (HWY_UNLIKELY(!hn::AllFalse(d, hard))) {
       Vec<D> in_double;
-      RoughSurfaceInDouble<Dist, Facets, Lobes::kReflection, kG, true, false>(
+      RoughSurfaceInDouble<Dist, Facets, Lobes::kReflection, kG, true, false, Drawn::kNormals>(
           d, none, in_double, unused, ix, iy, iz, ox, oy, oz, q0, q1, p...);
       value = hn::IfThenElse(hard, in_double, value);
     }

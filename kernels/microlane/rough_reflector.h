@@ -1,5 +1,6 @@
 // Opaque rough surfaces in batches: ideal mirrors, conductors and Schlick's approximation as facets. Value,
-// both value and density in one call, sampling; density alone is PdfReflection of rough_dielectric.h.
+// both value and density in one call, sampling. The density alone is that of the distribution:
+// PdfVisibleReflection of normals.h, or, of D cos sampling, PdfReflection of rough_dielectric.h.
 //
 // All functions work on n lanes of float or double and are thread-safe. Errors are those that the kernel list
 // declares for the id named with each function, <family>.<id>; NaN in gives NaN out in that lane.
@@ -72,17 +73,20 @@ class RoughReflectorLanes {
                            Accuracy accuracy = Accuracy::kStandard,
                            JointMasking masking = JointMasking::kHeightCorrelated);
 
-  // Eval and the density with which Sample finds wo. Walter 2007 Eqs. 14, 20, 24, 38. eval_pdf,
-  // eval_pdf_separable.
+  // Eval and the density with which Sample finds wo. Walter 2007 Eqs. 14, 20; Heitz 2014 Eq. 16, or Walter
+  // 2007 Eqs. 24, 38. eval_pdf_visible, eval_pdf, and these with _separable.
   static void EvalPdf(std::size_t n, const Directions<T>& wi, const Directions<T>& wo, const Surface& surface,
                       T* f_cos, T* pdf, Accuracy accuracy = Accuracy::kStandard,
-                      JointMasking masking = JointMasking::kHeightCorrelated);
+                      JointMasking masking = JointMasking::kHeightCorrelated,
+                      Sampling sampling = Sampling::kVisibleNormals);
 
-  // Directions wo from uniform numbers in [0, 1), by D cos sampling of normals. Walter 2007 Eqs. 37-39, 41.
-  // sample, sample_separable.
+  // Directions wo from uniform numbers in [0, 1): reflection about normals that are visible from wi, whose
+  // weight is at most 1, or about normals by D cos. Walter 2007 Eqs. 37-39, 41. sample_visible, sample, and
+  // these with _separable.
   static void Sample(std::size_t n, const Directions<T>& wi, const T* u1, const T* u2, const Surface& surface,
                      const DielectricSamples<T>& samples, Accuracy accuracy = Accuracy::kStandard,
-                     JointMasking masking = JointMasking::kHeightCorrelated);
+                     JointMasking masking = JointMasking::kHeightCorrelated,
+                     Sampling sampling = Sampling::kVisibleNormals);
 };
 
 // The same in float and double: T is that of the outputs.

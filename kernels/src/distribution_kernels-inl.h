@@ -8,7 +8,7 @@
 
 #include <utility>
 
-#include "microlane/distribution-inl.h"
+#include "microlane/rough_reflector-inl.h"
 #include "src/batch-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -23,7 +23,9 @@ struct NormalQuantityKernel {
   static constexpr NormalQuantity::What kWhat = kNormalRows[kNormalKernelPlaces[kPlace].row].what;
 
   template <Accuracy A, class D, class... V>
-  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, Vec<D> a, Vec<D> b, V... in) {
+  static HWY_INLINE void Eval(D d, const Options<D>& options, const Outputs<D>& out, Vec<D> a, Vec<D> b,
+                              V... in) {
+    (void)options;
     if constexpr (kWhat == NormalQuantity::kD && Dist::kDensityOfCosine) {
       out.v0 = Dist::template NormalDensity<A>(d, in...);
     } else if constexpr (kWhat == NormalQuantity::kD) {
@@ -39,8 +41,15 @@ struct NormalQuantityKernel {
     } else if constexpr (kWhat == NormalQuantity::kSampleReflection ||
                          kWhat == NormalQuantity::kSampleReflectionBounded) {
       constexpr bool bounded = kWhat == NormalQuantity::kSampleReflectionBounded;
-      Dist::template SampleVisibleReflection<bounded, A>(d, out.v0, out.v1, out.v2, out.v3, out.v4, out.v5, a,
-                                                         b, in...);
+      Vec<D> cos2;
+      Dist::template SampleVisibleReflection<bounded, JointMasking::kHeightCorrelated, A>(
+          d, out.v0, out.v1, out.v2, out.v3, out.v4, out.v5, cos2, a, b, in...);
+    } else if constexpr (kWhat == NormalQuantity::kPdfReflection ||
+                         kWhat == NormalQuantity::kPdfReflectionBounded) {
+      constexpr Drawn drawn =
+          kWhat == NormalQuantity::kPdfReflection ? Drawn::kVisible : Drawn::kBoundedVisible;
+      RoughSurface<Dist, MirrorFacets, Lobes::kReflection, JointMasking::kHeightCorrelated, false, true,
+                   drawn, A>(d, options.radiance, out.v0, out.v0, a, b, in...);
     } else {
       constexpr bool bounded = kWhat == NormalQuantity::kSampleVisibleBounded;
       SampleVisibleNormal<Dist, bounded, A>(d, out.v0, out.v1, out.v2, out.v3, a, b, in...);

@@ -29,7 +29,7 @@ const FamilyFunction* TableOf(std::size_t kernel) {
                      [](auto normals) { return RoughReflectorTable<decltype(normals)::value>(); });
   }
   if (kernel >= kFirstDielectricKernel) {
-    return OfNormals((kernel - kFirstDielectricKernel) / kNumDielectricQuantities, families,
+    return OfNormals(static_cast<std::size_t>(PlaceOfDielectricKernel(kernel).normals), families,
                      [](auto normals) { return RoughDielectricTable<decltype(normals)::value>(); });
   }
   if (kernel >= kNumComponentKernels) {

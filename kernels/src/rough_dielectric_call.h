@@ -47,20 +47,34 @@ class RoughDielectricCall {
     return *this;
   }
 
+  // Of values, which hang on no sampling.
   template <What kWhat, bool kReflects, bool kTransmits>
   void Run(JointMasking masking, Accuracy accuracy, std::size_t n) const {
-    constexpr std::size_t kCorrelated = Kernel(kWhat, kReflects, kTransmits, false);
-    constexpr std::size_t kSeparable = Kernel(kWhat, kReflects, kTransmits, kWhat != What::kPdf);
+    RunFrom<kWhat, kReflects, kTransmits, false>(masking, accuracy, n);
+  }
+  template <What kWhat, bool kReflects, bool kTransmits>
+  void Run(JointMasking masking, Sampling sampling, Accuracy accuracy, std::size_t n) const {
+    constexpr bool kHasVisible = HasVisibleNormals(kNormals);
+    if (kHasVisible && sampling == Sampling::kVisibleNormals) {
+      RunFrom<kWhat, kReflects, kTransmits, kHasVisible>(masking, accuracy, n);
+    } else {
+      RunFrom<kWhat, kReflects, kTransmits, false>(masking, accuracy, n);
+    }
+  }
+
+ private:
+  template <What kWhat, bool kReflects, bool kTransmits, bool kVisible>
+  void RunFrom(JointMasking masking, Accuracy accuracy, std::size_t n) const {
+    constexpr auto kernel = [](bool separable) {
+      return DielectricKernel(kNormals,
+                              FindDielectricQuantity(kWhat, kReflects, kTransmits, separable, kVisible));
+    };
+    constexpr std::size_t kCorrelated = kernel(false), kSeparable = kernel(kWhat != What::kPdf);
     if (masking == JointMasking::kSeparable) {
       call_.template Run<kSeparable>(RoughDielectricTable<kNormals>(), accuracy, n);
     } else {
       call_.template Run<kCorrelated>(RoughDielectricTable<kNormals>(), accuracy, n);
     }
-  }
-
- private:
-  static constexpr std::size_t Kernel(What what, bool reflects, bool transmits, bool separable) {
-    return DielectricKernel(kNormals, FindDielectricQuantity(what, reflects, transmits, separable));
   }
 
   CallBuilder<T> call_;
@@ -98,59 +112,64 @@ void RoughDielectricLanes<kNormals, T>::EvalTransmission(std::size_t n, const Di
 
 template <Normals kNormals, class T>
 void RoughDielectricLanes<kNormals, T>::Pdf(std::size_t n, const Directions<T>& wi, const Directions<T>& wo,
-                                            const Surface& surface, T* pdf, Accuracy accuracy) {
+                                            const Surface& surface, T* pdf, Accuracy accuracy,
+                                            Sampling sampling) {
   RoughDielectricCall<kNormals, T>(wi, wo, surface)
       .Out(pdf)
-      .template Run<DielectricQuantity::kPdf, true, true>(JointMasking::kHeightCorrelated, accuracy, n);
+      .template Run<DielectricQuantity::kPdf, true, true>(JointMasking::kHeightCorrelated, sampling, accuracy,
+                                                          n);
 }
 
 template <Normals kNormals, class T>
 void RoughDielectricLanes<kNormals, T>::PdfReflection(std::size_t n, const Directions<T>& wi,
                                                       const Directions<T>& wo, const Surface& surface, T* pdf,
-                                                      Accuracy accuracy) {
+                                                      Accuracy accuracy, Sampling sampling) {
   RoughDielectricCall<kNormals, T>(wi, wo, surface)
       .Out(pdf)
-      .template Run<DielectricQuantity::kPdf, true, false>(JointMasking::kHeightCorrelated, accuracy, n);
+      .template Run<DielectricQuantity::kPdf, true, false>(JointMasking::kHeightCorrelated, sampling,
+                                                           accuracy, n);
 }
 
 template <Normals kNormals, class T>
 void RoughDielectricLanes<kNormals, T>::PdfTransmission(std::size_t n, const Directions<T>& wi,
                                                         const Directions<T>& wo, const Surface& surface,
-                                                        T* pdf, Accuracy accuracy) {
+                                                        T* pdf, Accuracy accuracy, Sampling sampling) {
   RoughDielectricCall<kNormals, T>(wi, wo, surface)
       .Out(pdf)
-      .template Run<DielectricQuantity::kPdf, false, true>(JointMasking::kHeightCorrelated, accuracy, n);
+      .template Run<DielectricQuantity::kPdf, false, true>(JointMasking::kHeightCorrelated, sampling,
+                                                           accuracy, n);
 }
 
 template <Normals kNormals, class T>
 void RoughDielectricLanes<kNormals, T>::EvalPdf(std::size_t n, const Directions<T>& wi,
                                                 const Directions<T>& wo, const Surface& surface, T* f_cos,
                                                 T* pdf, Accuracy accuracy, Transport transport,
-                                                JointMasking masking) {
+                                                JointMasking masking, Sampling sampling) {
   RoughDielectricCall<kNormals, T>(wi, wo, surface)
       .Out(f_cos)
       .Out(pdf)
       .With(transport)
-      .template Run<DielectricQuantity::kEvalPdf, true, true>(masking, accuracy, n);
+      .template Run<DielectricQuantity::kEvalPdf, true, true>(masking, sampling, accuracy, n);
 }
 
 template <Normals kNormals, class T>
 void RoughDielectricLanes<kNormals, T>::Sample(std::size_t n, const Directions<T>& wi, const T* u1,
                                                const T* u2, const T* u3, const Surface& surface,
                                                const DielectricSamples<T>& samples, Accuracy accuracy,
-                                               Transport transport, JointMasking masking) {
+                                               Transport transport, JointMasking masking, Sampling sampling) {
   RoughDielectricCall<kNormals, T>(wi, u1, u2, u3, surface, samples)
       .With(transport)
-      .template Run<DielectricQuantity::kSample, true, true>(masking, accuracy, n);
+      .template Run<DielectricQuantity::kSample, true, true>(masking, sampling, accuracy, n);
 }
 
 template <Normals kNormals, class T>
 void RoughDielectricLanes<kNormals, T>::SampleReflection(std::size_t n, const Directions<T>& wi, const T* u1,
                                                          const T* u2, const Surface& surface,
                                                          const DielectricSamples<T>& samples,
-                                                         Accuracy accuracy, JointMasking masking) {
+                                                         Accuracy accuracy, JointMasking masking,
+                                                         Sampling sampling) {
   RoughDielectricCall<kNormals, T>(wi, u1, u2, nullptr, surface, samples)
-      .template Run<DielectricQuantity::kSample, true, false>(masking, accuracy, n);
+      .template Run<DielectricQuantity::kSample, true, false>(masking, sampling, accuracy, n);
 }
 
 template <Normals kNormals, class T>
@@ -158,10 +177,10 @@ void RoughDielectricLanes<kNormals, T>::SampleTransmission(std::size_t n, const 
                                                            const T* u1, const T* u2, const Surface& surface,
                                                            const DielectricSamples<T>& samples,
                                                            Accuracy accuracy, Transport transport,
-                                                           JointMasking masking) {
+                                                           JointMasking masking, Sampling sampling) {
   RoughDielectricCall<kNormals, T>(wi, u1, u2, nullptr, surface, samples)
       .With(transport)
-      .template Run<DielectricQuantity::kSample, false, true>(masking, accuracy, n);
+      .template Run<DielectricQuantity::kSample, false, true>(masking, sampling, accuracy, n);
 }
 
 }  // namespace microlane

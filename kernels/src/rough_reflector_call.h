@@ -52,15 +52,24 @@ void AddSurface(const OpaqueSurface<kNormals, kReflector, T>& surface, CallBuild
   AddFacets(surface.facets, call);
 }
 
-template <Normals kNormals, Reflector kReflector, DielectricQuantity::What kWhat, class T>
+template <Normals kNormals, Reflector kReflector, DielectricQuantity::What kWhat, bool kVisible, class T>
 void RunReflector(const CallBuilder<T>& call, JointMasking masking, Accuracy accuracy, std::size_t n) {
-  constexpr std::size_t kCorrelated = FindReflectorQuantity(kWhat, false);
-  constexpr std::size_t kSeparable = FindReflectorQuantity(kWhat, true);
+  constexpr std::size_t kCorrelated = FindReflectorQuantity(kWhat, false, kVisible);
+  constexpr std::size_t kSeparable = FindReflectorQuantity(kWhat, true, kVisible);
   const FamilyFunction* table = RoughReflectorTable<kNormals>();
   if (masking == JointMasking::kSeparable) {
     call.template Run<ReflectorKernel({kNormals, kReflector, kSeparable})>(table, accuracy, n);
   } else {
     call.template Run<ReflectorKernel({kNormals, kReflector, kCorrelated})>(table, accuracy, n);
+  }
+}
+template <Normals kNormals, Reflector kReflector, DielectricQuantity::What kWhat, class T>
+void RunReflector(const CallBuilder<T>& call, JointMasking masking, Sampling sampling, Accuracy accuracy,
+                  std::size_t n) {
+  if (HasVisibleNormals(kNormals) && sampling == Sampling::kVisibleNormals) {
+    RunReflector<kNormals, kReflector, kWhat, HasVisibleNormals(kNormals)>(call, masking, accuracy, n);
+  } else {
+    RunReflector<kNormals, kReflector, kWhat, false>(call, masking, accuracy, n);
   }
 }
 
@@ -72,7 +81,7 @@ void RoughReflectorLanes<kNormals, kReflector, T>::Eval(std::size_t n, const Dir
   call.In(wi).In(wo);
   AddSurface(surface, call);
   call.Out(f_cos);
-  RunReflector<kNormals, kReflector, DielectricQuantity::kEval>(call, masking, accuracy, n);
+  RunReflector<kNormals, kReflector, DielectricQuantity::kEval, false>(call, masking, accuracy, n);
 }
 
 template <Normals kNormals, Reflector kReflector, class T>
@@ -103,24 +112,25 @@ template <Normals kNormals, Reflector kReflector, class T>
 void RoughReflectorLanes<kNormals, kReflector, T>::EvalPdf(std::size_t n, const Directions<T>& wi,
                                                            const Directions<T>& wo, const Surface& surface,
                                                            T* f_cos, T* pdf, Accuracy accuracy,
-                                                           JointMasking masking) {
+                                                           JointMasking masking, Sampling sampling) {
   CallBuilder<T> call;
   call.In(wi).In(wo);
   AddSurface(surface, call);
   call.Out(f_cos).Out(pdf);
-  RunReflector<kNormals, kReflector, DielectricQuantity::kEvalPdf>(call, masking, accuracy, n);
+  RunReflector<kNormals, kReflector, DielectricQuantity::kEvalPdf>(call, masking, sampling, accuracy, n);
 }
 
 template <Normals kNormals, Reflector kReflector, class T>
 void RoughReflectorLanes<kNormals, kReflector, T>::Sample(std::size_t n, const Directions<T>& wi, const T* u1,
                                                           const T* u2, const Surface& surface,
                                                           const DielectricSamples<T>& samples,
-                                                          Accuracy accuracy, JointMasking masking) {
+                                                          Accuracy accuracy, JointMasking masking,
+                                                          Sampling sampling) {
   CallBuilder<T> call;
   call.In(wi).In(u1).In(u2);
   AddSurface(surface, call);
   call.Out(samples.wo).Out(samples.weight).Out(samples.pdf).Out(samples.lobe);
-  RunReflector<kNormals, kReflector, DielectricQuantity::kSample>(call, masking, accuracy, n);
+  RunReflector<kNormals, kReflector, DielectricQuantity::kSample>(call, masking, sampling, accuracy, n);
 }
 
 }  // namespace microlane

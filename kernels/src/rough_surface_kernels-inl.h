@@ -29,6 +29,7 @@ struct RoughSurfaceKernel {
                                                               : kReflectorQuantities[kDielectric ? 0 : kRow];
   static constexpr std::string_view kId = kKernels[kKernel].id;
   static constexpr bool kSamples = kQuantity.what == DielectricQuantity::kSample;
+  static constexpr Drawn kDrawn = kQuantity.visible ? Drawn::kVisible : Drawn::kNormals;
   static constexpr bool kValue = kQuantity.HasValue(), kPdf = kQuantity.what != DielectricQuantity::kEval;
   static constexpr Lobes kLobes = kQuantity.HasBothLobes() ? Lobes::kBoth
                                   : kQuantity.reflects     ? Lobes::kReflection
@@ -63,11 +64,15 @@ struct RoughSurfaceKernel {
                                      P... p) {
     if constexpr (kCount > 0) {
       FacetsFirst<kCount - 1, A>(d, options, out, ix, iy, iz, a, b, c, p..., first);
+    } else if constexpr (kSamples && !kDielectric && kDrawn == Drawn::kVisible) {
+      SampleVisible<Dist, Facets, kG, A>(d, out.v0, out.v1, out.v2, out.v3, out.v4, out.v5, ix, iy, iz, a, b,
+                                         first, p...);
     } else if constexpr (kSamples) {
-      SampleRoughSurface<Dist, Facets, kLobes, kG, A>(d, options.radiance, out.v0, out.v1, out.v2, out.v3,
-                                                      out.v4, out.v5, ix, iy, iz, a, b, c, first, p...);
+      SampleRoughSurface<Dist, Facets, kLobes, kG, kDrawn, A>(d, options.radiance, out.v0, out.v1, out.v2,
+                                                              out.v3, out.v4, out.v5, ix, iy, iz, a, b, c,
+                                                              first, p...);
     } else {
-      RoughSurface<Dist, Facets, kLobes, kG, kValue, kPdf, A>(
+      RoughSurface<Dist, Facets, kLobes, kG, kValue, kPdf, kDrawn, A>(
           d, options.radiance, out.v0, kValue ? out.v1 : out.v0, ix, iy, iz, a, b, c, first, p...);
     }
   }
@@ -82,31 +87,28 @@ using FacetsOf = std::conditional_t<
     kReflector == Reflector::kMirror, MirrorFacets,
     std::conditional_t<kReflector == Reflector::kConductor, ConductorFacets, SchlickFacets>>;
 
-template <class Dist, Normals kNormals, std::size_t kQuantity>
-using RoughReflectorKernel =
-    RoughSurfaceKernel<Dist, FacetsOf<static_cast<Reflector>(kQuantity / kNumReflectorQuantities)>,
-                       ReflectorKernel({kNormals, static_cast<Reflector>(kQuantity / kNumReflectorQuantities),
-                                        kQuantity % kNumReflectorQuantities}),
-                       kQuantity % kNumReflectorQuantities>;
+template <class Dist, std::size_t kKernel>
+using RoughReflectorKernel = RoughSurfaceKernel<Dist, FacetsOf<PlaceOfReflectorKernel(kKernel).reflector>,
+                                                kKernel, PlaceOfReflectorKernel(kKernel).quantity>;
 
 template <class Dist, Normals kNormals, std::size_t... kQuantity>
 FamilyCode RoughDielectricFamily(std::index_sequence<kQuantity...>) {
   return Family<RoughDielectricKernel<Dist, kNormals, kQuantity>...>();
 }
-template <class Dist, Normals kNormals, std::size_t... kQuantity>
-FamilyCode RoughReflectorFamily(std::index_sequence<kQuantity...>) {
-  return Family<RoughReflectorKernel<Dist, kNormals, kQuantity>...>();
+template <class Dist, std::size_t kFirst, std::size_t... kKernel>
+FamilyCode RoughReflectorFamily(std::index_sequence<kKernel...>) {
+  return Family<RoughReflectorKernel<Dist, kFirst + kKernel>...>();
 }
 
 // The tables of all of the kernel list's quantities on this target.
 template <class Dist, Normals kNormals>
 FamilyCode RoughDielectricFamily() {
-  return RoughDielectricFamily<Dist, kNormals>(std::make_index_sequence<kNumDielectricQuantities>());
+  return RoughDielectricFamily<Dist, kNormals>(std::make_index_sequence<NumDielectricQuantities(kNormals)>());
 }
 template <class Dist, Normals kNormals>
 FamilyCode RoughReflectorFamily() {
-  return RoughReflectorFamily<Dist, kNormals>(
-      std::make_index_sequence<kNumReflectors * kNumReflectorQuantities>());
+  return RoughReflectorFamily<Dist, ReflectorKernel({kNormals, Reflector::kMirror, 0})>(
+      std::make_index_sequence<NumReflectorKernels(kNormals)>());
 }
 
 }  // namespace

@@ -72,12 +72,23 @@ struct VisibleSample {
 
 const Real& Larger(const Real& a, const Real& b) { return a > b ? a : b; }
 
+// How much of the visible normals is drawn from.
+template <bool kBounded, class Distribution>
+Real ShareOfVisible(const Distribution& distribution, const Vec& v) {
+  if constexpr (kBounded) {
+    const Vec s = Normalized(UnitView(v, distribution.alpha));
+    return (1 + CapBound(v, distribution.alpha) * abs(s.z)) / (1 + abs(s.z));
+  } else {
+    return 1;
+  }
+}
+
 template <bool kBounded>
 VisibleSample SampleVisible(const Ggx& ggx, const Vec& v, const Real& u1, const Real& u2) {
   const Real k = kBounded ? CapBound(v, ggx.alpha) : Real(1);
   const CapNormal normal = VisibleNormal(v, u1, u2, ggx.alpha, k);
   const Real stretched = CapCancellation(normal, ggx.alpha);
-  return {normal.m, (1 + k * normal.view.z) / (1 + normal.view.z), stretched,
+  return {normal.m, ShareOfVisible<kBounded>(ggx, v), stretched,
           Larger(stretched, CapCancellation(normal, {1, 1}))};
 }
 template <bool kBounded>
@@ -86,6 +97,18 @@ VisibleSample SampleVisible(const Beckmann& beckmann, const Vec& v, const Real& 
   const Real stretched = Cancellation(normal.sizes, normal.h, beckmann.alpha);
   return {normal.m, 1, stretched,
           Larger(stretched, Cancellation(normal.sizes, normal.h, {1, 1})) + normal.end_share};
+}
+
+// The normals of a model's sampler.
+template <bool kVisible, class Distribution>
+NormalSample SampleNormal(const Distribution& distribution, const Vec& wi, const Real& u1, const Real& u2) {
+  if constexpr (kVisible) {
+    const VisibleSample normal = SampleVisible<false>(distribution, wi, u1, u2);
+    return {normal.m, distribution.DVisible(wi, normal.m), true, normal.direction_kappa, normal.kappa};
+  } else {
+    const Vec m = distribution.SampleNormal(u1, u2);
+    return {m, distribution.D(m) * m.z};
+  }
 }
 
 template <bool kBounded, class Distribution>
@@ -98,10 +121,11 @@ void StoreVisibleNormal(const Distribution& distribution, Call& call) {
   call.kappa = normal.kappa;
 }
 
-// The ideal mirror about a visible normal: Walter 2007, Eqs. 14 and 39; the weight is f |cos(theta_o)| / pdf
-// of Heitz 2014, Eqs. 16 and 99, less what both have in common.
-template <bool kBounded, class Distribution>
-void StoreVisibleReflection(const Distribution& distribution, Call& call) {
+// Reflection about a visible normal: Walter 2007, Eqs. 14 and 39; the weight is f |cos(theta_o)| / pdf of
+// Heitz 2014, Eqs. 16 and 99 or 98, less what both have in common.
+template <bool kBounded, class Distribution, class Facets>
+void StoreVisibleReflection(const Distribution& distribution, const Facets& facets, Masking masking,
+                            Call& call) {
   const Vec wi = Direction(call.in);
   const VisibleSample normal = SampleVisible<kBounded>(distribution, wi, call.in[3], call.in[4]);
   const Real side = wi.z < 0 ? -1 : 1;
@@ -115,17 +139,21 @@ void StoreVisibleReflection(const Distribution& distribution, Call& call) {
   // |wi.n| times Lambda; |wi.n| (1 + Lambda) has a limit at wi.n = 0.
   const Real lambda_i =
       wi.z == 0 ? Real(distribution.GrazingArea(wi)) : Real(abs(wi.z) * distribution.Lambda(wi));
-  const Real lambda_o = abs(wi.z) * distribution.Lambda(wo);
-  const Real visible = abs(wi.z) + lambda_i + lambda_o;
-  call.out[3] = normal.share * (1 - lambda_o / visible);
-  call.out[4] = distribution.DVisible(wi, normal.m) / normal.share * ReflectionJacobian(Dot(wi, normal.m));
+  const Real lambda_o = distribution.Lambda(wo);
+  // d(Lambda_o) times this is d(G2)/G2.
+  const Real over_visible = masking == Masking::kSeparable
+                                ? Real(1 / (1 + lambda_o))
+                                : Real(abs(wi.z) / (abs(wi.z) + lambda_i + abs(wi.z) * lambda_o));
+  const Real c = abs(Dot(wi, normal.m)), F = facets.Reflectance(c), slope = RelativeSlope(facets, c);
+  call.out[3] = F * normal.share * (1 - lambda_o * over_visible);
+  call.out[4] = distribution.DVisible(wi, normal.m) / normal.share * ReflectionJacobian(c);
   call.out[5] = 1;
   call.kappa = normal.kappa;
-  // |d ln(weight)| for changes of wo by 1 along each axis, at most.
-  call.weight_kappa = 1 + call.direction_kappa * abs(wi.z) * distribution.LambdaSlope(wo) / visible;
+  // |d ln(weight)| for changes of wo by 1 along each axis, and of wi.m, at most.
+  call.weight_kappa = 1 + call.direction_kappa * (over_visible * distribution.LambdaSlope(wo) + slope);
   const Real length = sqrt(ProjectedRoughness2(wo, distribution.alpha) + wo.z * wo.z);
-  call.weight_curvature =
-      static_cast<double>(Real(call.direction_kappa * (1 / abs(wo.z) + distribution.Alphas() / length)));
+  call.weight_curvature = static_cast<double>(
+      Real(call.direction_kappa * (1 / abs(wo.z) + distribution.Alphas() / length + facets.Curvature(c))));
 }
 
 // A quantity of a distribution by its place in kNormalKernelPlaces.
@@ -146,7 +174,14 @@ void OfNormals(Call& call) {
     StoreNormal(normals, call);
   } else if constexpr (row.what == NormalQuantity::kSampleReflection ||
                        row.what == NormalQuantity::kSampleReflectionBounded) {
-    StoreVisibleReflection<row.what == NormalQuantity::kSampleReflectionBounded>(normals, call);
+    StoreVisibleReflection<row.what == NormalQuantity::kSampleReflectionBounded>(normals, MirrorFacets{},
+                                                                                 Masking::kCorrelated, call);
+  } else if constexpr (row.what == NormalQuantity::kPdfReflection ||
+                       row.what == NormalQuantity::kPdfReflectionBounded) {
+    const Vec wi = Direction(call.in);
+    const Real pdf = PdfVisible(normals, wi, Direction(call.in + 3));
+    constexpr bool bounded = row.what == NormalQuantity::kPdfReflectionBounded;
+    call.out[0] = pdf == 0 ? pdf : Real(pdf / ShareOfVisible<bounded>(normals, wi));
   } else {
     StoreVisibleNormal<row.what == NormalQuantity::kSampleVisibleBounded>(normals, call);
   }
@@ -182,14 +217,14 @@ void Dielectric(Call& call) {
       normals, parameters[eta], row.separable ? Masking::kSeparable : Masking::kCorrelated, call.transport};
   const Vec wi = Direction(call.in);
   if constexpr (row.what == DielectricQuantity::kSample) {
-    StoreSample(bsdf.Sample(wi, call.in[3], call.in[4], one_lobe_sampled ? Real(0) : call.in[5], lobes,
-                            call.lobe_hint),
+    StoreSample(bsdf.Sample(wi, SampleNormal<row.visible>(normals, wi, call.in[3], call.in[4]),
+                            one_lobe_sampled ? Real(0) : call.in[5], lobes, call.lobe_hint),
                 call);
   } else {
     const Vec wo = Direction(call.in + 3);
     if constexpr (row.HasValue()) call.out[0] = bsdf.EvalCos(wi, wo, lobes);
     if constexpr (row.what != DielectricQuantity::kEval) {
-      call.out[row.HasValue() ? 1 : 0] = bsdf.Pdf(wi, wo, lobes);
+      call.out[row.HasValue() ? 1 : 0] = bsdf.Pdf(wi, wo, lobes, row.visible);
     }
   }
 }
@@ -215,15 +250,21 @@ void OfReflector(Call& call) {
   const Real* const parameters = call.in + Split(kKernels[kKernel].inputs).per_lane;
   const auto normals = MakeNormals<place.normals, roughness>(parameters);
   const auto facets = MakeFacets<place.reflector>(parameters + count);
+  constexpr Masking masking = row.separable ? Masking::kSeparable : Masking::kCorrelated;
   const RoughReflector<std::remove_const_t<decltype(normals)>, std::remove_const_t<decltype(facets)>> surface{
-      normals, facets, row.separable ? Masking::kSeparable : Masking::kCorrelated};
+      normals, facets, masking};
   const Vec wi = Direction(call.in);
-  if constexpr (row.what == DielectricQuantity::kSample) {
+  if constexpr (row.what == DielectricQuantity::kSample && row.visible) {
+    StoreVisibleReflection<false>(normals, facets, masking, call);
+  } else if constexpr (row.what == DielectricQuantity::kSample) {
     StoreSample(surface.Sample(wi, call.in[3], call.in[4], call.lobe_hint), call);
   } else {
     const Vec wo = Direction(call.in + 3);
     call.out[0] = surface.EvalCos(wi, wo);
-    if constexpr (row.what == DielectricQuantity::kEvalPdf) call.out[1] = surface.Pdf(wi, wo);
+    if constexpr (row.what == DielectricQuantity::kEvalPdf) {
+      if constexpr (row.visible) call.out[1] = PdfVisible(normals, wi, wo);
+      if constexpr (!row.visible) call.out[1] = surface.Pdf(wi, wo);
+    }
   }
 }
 
@@ -368,11 +409,12 @@ constexpr std::array<Resolved, kNumKernels> Resolve() {
       if (entry.id == kKernels[k].id) table[k].function = entry.function;
     }
   }
-  constexpr auto quantities = std::make_index_sequence<kNumDielectricQuantities>();
   AddNormals(table, std::make_index_sequence<kNumNormalKernels>());
-  AddDielectrics<Normals::kGgx>(table, quantities);
-  AddDielectrics<Normals::kBeckmann>(table, quantities);
-  AddDielectrics<Normals::kPhong>(table, quantities);
+  AddDielectrics<Normals::kGgx>(table, std::make_index_sequence<NumDielectricQuantities(Normals::kGgx)>());
+  AddDielectrics<Normals::kBeckmann>(table,
+                                     std::make_index_sequence<NumDielectricQuantities(Normals::kBeckmann)>());
+  AddDielectrics<Normals::kPhong>(table,
+                                  std::make_index_sequence<NumDielectricQuantities(Normals::kPhong)>());
   AddReflectors(table, std::make_index_sequence<kNumReflectorKernels>());
   return table;
 }

@@ -65,6 +65,22 @@ Real SmithG2(const Distribution& distribution, Masking masking, const Vec& wi, c
   return 1 / ((1 + lambda_i) * (1 + lambda_o));
 }
 
+// A normal that was drawn, its density, and what Metric::kDirection and kConditioned make of it.
+struct NormalSample {
+  Vec m;
+  Real pdf;
+  bool visible = false;  // from wi; else by D cos
+  Real direction_kappa = 1, kappa = 1;
+};
+
+// The density of wo for normals visible from wi: D_v of Heitz 2014, Eq. 16, which has |wi.h|, times the
+// Jacobians of Walter 2007, Eqs. 14 and 17, less eta^2.
+template <class Distribution>
+Real PdfVisible(const Distribution& distribution, const Vec& wi, const Geometry& g) {
+  const Real jacobian = g.lobe == kReflection ? Real(Real(1) / 4) : Real(abs(g.wi_h * g.wo_h) / g.h_length2);
+  return distribution.D(g.h) * jacobian / ((1 + distribution.Lambda(wi)) * abs(wi.z));
+}
+
 // |d ln G| for a change of wo by 1, at most: by 1/|wo.n|, and by the length |(alpha_x wo.x, alpha_y wo.y,
 // wo.z)| = |wo.n| (1 + 2 Lambda_o).
 template <class Distribution>
@@ -90,11 +106,13 @@ struct RoughDielectric {
     return transport == Transport::kRadiance ? eta * eta * f_cos : f_cos;
   }
 
-  // Walter 2007, Eqs. 24 and 38, of the lobes wanted; with both, times the probability of the lobe.
-  Real Pdf(const Vec& wi, const Vec& wo, int lobes) const {
+  // Walter 2007, Eq. 38, of the lobes wanted, of normals by Eq. 24 or of visible ones; with both lobes, times
+  // the probability of the lobe.
+  Real Pdf(const Vec& wi, const Vec& wo, int lobes, bool visible = false) const {
     const Geometry g = MakeGeometry(wi, wo, eta);
     if ((g.lobe & lobes) == 0) return 0;
-    Real pdf = distribution.D(g.h) * g.h.z * abs(g.wo_h) / g.h_length2;
+    Real pdf = visible ? PdfVisible(distribution, wi, g)
+                       : Real(distribution.D(g.h) * g.h.z * abs(g.wo_h) / g.h_length2);
     if (g.lobe == kTransmission) pdf *= eta * eta;
     if (lobes == kBoth) {
       const Real F = FresnelDielectric(g.wi_h, eta);
@@ -105,12 +123,12 @@ struct RoughDielectric {
 
   // Walter 2007, section 5.3; of one lobe, u3 decides nothing and the weight carries F or 1 - F. A lobe_hint
   // >= 0 takes that lobe whatever the decisions would be; margin is still that of the decisions.
-  DirectionSample Sample(const Vec& wi, const Real& u1, const Real& u2, const Real& u3, int lobes,
+  DirectionSample Sample(const Vec& wi, const NormalSample& normal, const Real& u3, int lobes,
                          int lobe_hint) const {
     DirectionSample sample;
     if (wi.z == 0) return sample;
     const int sign = Sign(wi.z);
-    const Vec m = distribution.SampleNormal(u1, u2);
+    const Vec& m = normal.m;
     if (m.z == 0) return sample;
     const Vec facing = Real(sign) * m;  // the normal on wi's side
     const Real c = Dot(wi, facing);
@@ -144,6 +162,7 @@ struct RoughDielectric {
       const bool valid = lobe == kReflection ? sign * wo.z > 0 : sign * wo.z < 0 && !total;
       if (!valid) lobe = kNone;
     }
+    sample.margin /= ToDouble(normal.direction_kappa);
     if (lobe_hint >= 0 && lobe_hint != lobe) {
       lobe = lobe_hint;
       wo = scatter(lobe);
@@ -152,17 +171,19 @@ struct RoughDielectric {
 
     sample.lobe = lobe;
     sample.wo = wo;
-    sample.weight = c * SmithG2(distribution, masking, wi, wo) / (abs(wi.z) * m.z);
-    sample.pdf = distribution.D(m) * m.z;
+    sample.weight = SmithG2(distribution, masking, wi, wo) *
+                    (normal.visible ? Real(1 + distribution.Lambda(wi)) : Real(c / (abs(wi.z) * m.z)));
+    sample.pdf = normal.pdf;
     const Real geometry = (1 + 1 / abs(c)) * (1 + c * c / abs(g2));
-    sample.kappa = geometry * (1 + 1 / abs(wo.z));
-    sample.weight_kappa = geometry * (1 + MaskingSlope(distribution, wo));
+    sample.kappa = normal.kappa * geometry * (1 + 1 / abs(wo.z));
+    sample.weight_kappa = normal.direction_kappa * geometry * (1 + MaskingSlope(distribution, wo));
+    sample.direction_kappa = normal.direction_kappa;
     (lobes == kBoth ? sample.pdf : sample.weight) *= lobe == kReflection ? F : Real(1 - F);
     if (lobe == kReflection) {
       sample.pdf *= ReflectionJacobian(c);
     } else {
       sample.pdf *= RefractionJacobian(c, -cos_t, eta);
-      sample.direction_kappa = 1 + c / sqrt(abs(g2));
+      sample.direction_kappa *= 1 + c / sqrt(abs(g2));
       if (g2 <= 0)
         sample.kappa = sample.weight_kappa = sample.direction_kappa = Infinity();  // only by a hint
       // Without an interface every facet refracts straight on: the density is a delta.

@@ -11,18 +11,20 @@
 
 namespace microlane::oracle {
 
-// Reflectance of a facet at the cosine c, and what it makes of a relative rounding of c, at least 1; see
-// Metric::kConditioned.
+// Reflectance F of a facet at the cosine c; what it makes of a relative rounding of c, at least 1; and 1 over
+// the change of c in which F changes its slope. See Metric::kConditioned.
 struct MirrorFacets {
   Real Reflectance(const Real&) const { return 1; }
   Real Conditioning(const Real&) const { return 1; }
+  Real Curvature(const Real&) const { return 0; }
 };
 
 struct ConductorFacets {
   Real n, kappa;
 
   Real Reflectance(const Real& c) const { return FresnelConductor(c, n, kappa); }
-  Real Conditioning(const Real& c) const { return 1 + c * c / SquaredModulus(ConductorG(abs(c), n, kappa)); }
+  Real Conditioning(const Real& c) const { return 1 + abs(c) * Curvature(c); }
+  Real Curvature(const Real& c) const { return abs(c) / SquaredModulus(ConductorG(abs(c), n, kappa)); }
 };
 
 struct SchlickFacets {
@@ -35,7 +37,22 @@ struct SchlickFacets {
     if (x <= 0) return f0 > 0 ? Real(1) : Infinity();
     return 1 + 5 * (1 - f0) * pow(x, 4) / Reflectance(c);
   }
+  Real Curvature(const Real& c) const { return Conditioning(c) - 1; }
 };
+
+// |dF/dc| / F.
+template <class Facets>
+Real RelativeSlope(const Facets& facets, const Real& c) {
+  const Real F = facets.Reflectance(c), step = c * Real("1e-30"), below = facets.Reflectance(c - step);
+  return F == below ? Real(0) : Real(abs(F - below) / (F * step));
+}
+
+// The density of reflections about normals visible from wi: Heitz 2014, Eq. 16, and Walter 2007, Eq. 14.
+template <class Distribution>
+Real PdfVisible(const Distribution& distribution, const Vec& wi, const Vec& wo) {
+  const Geometry g = MakeGeometry(wi, wo, 1);
+  return g.lobe != kReflection ? Real(0) : PdfVisible(distribution, wi, g);
+}
 
 template <class Distribution, class Facets>
 struct RoughReflector {

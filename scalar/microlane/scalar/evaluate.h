@@ -95,6 +95,10 @@ void RunNormals(const Real* in, Real* out, Transport) {
     out[3] = static_cast<Real>(sample.weight);
     out[4] = Saturate<Real>(sample.pdf);
     out[5] = static_cast<Real>(sample.lobe);
+  } else if constexpr (row.what == NormalQuantity::kPdfReflection ||
+                       row.what == NormalQuantity::kPdfReflectionBounded) {
+    out[0] = PdfVisibleReflection(normals, Load(in), Load(in + 3),
+                                  row.what == NormalQuantity::kPdfReflectionBounded);
   } else {
     constexpr bool bounded = row.what == NormalQuantity::kSampleVisibleBounded;
     Store(normals.SampleVisibleNormal(Load(in), in[3], in[4], bounded), out);
@@ -133,13 +137,15 @@ struct Dielectric {
     if constexpr (kRow.what == DielectricQuantity::kEval) {
       out[0] = dielectric.Eval(Load(in), Load(in + 3), kLobes);
     } else if constexpr (kRow.what == DielectricQuantity::kPdf) {
-      out[0] = dielectric.Pdf(Load(in), Load(in + 3), kLobes);
+      out[0] = dielectric.template Pdf<kRow.visible>(Load(in), Load(in + 3), kLobes);
     } else if constexpr (kRow.what == DielectricQuantity::kEvalPdf) {
-      const auto value = dielectric.EvalAndPdf(Load(in), Load(in + 3));
+      const auto value = dielectric.template EvalAndPdf<kRow.visible>(Load(in), Load(in + 3));
       out[0] = value.f_cos;
       out[1] = value.pdf;
     } else {
-      Store(dielectric.Sample(Load(in), in[3], in[4], one_lobe_sampled ? 0 : in[5], kLobes), out);
+      Store(dielectric.template Sample<kRow.visible>(Load(in), in[3], in[4], one_lobe_sampled ? 0 : in[5],
+                                                     kLobes),
+            out);
     }
   }
 };
@@ -176,9 +182,14 @@ void RunReflector(const Real* in, Real* out, Transport) {
   if constexpr (row.what == DielectricQuantity::kEval) {
     out[0] = surface.Eval(Load(in), Load(in + 3));
   } else if constexpr (row.what == DielectricQuantity::kEvalPdf) {
-    const auto value = surface.EvalAndPdf(Load(in), Load(in + 3));
+    const auto value = [&] {
+      if constexpr (row.visible) return surface.EvalAndPdfVisible(Load(in), Load(in + 3));
+      if constexpr (!row.visible) return surface.EvalAndPdf(Load(in), Load(in + 3));
+    }();
     out[0] = value.f_cos;
     out[1] = value.pdf;
+  } else if constexpr (row.visible) {
+    Store(surface.SampleVisible(Load(in), in[3], in[4]), out);
   } else {
     Store(surface.Sample(Load(in), in[3], in[4]), out);
   }
@@ -330,6 +341,11 @@ constexpr void AddDielectrics(KernelTable<Function<Real>>& table, std::index_seq
   ((table[DielectricKernel(kNormals, kQuantity)] = {Dielectric<Real, kNormals, kQuantity>::Run, true}), ...);
 }
 
+template <Normals kNormals, class Real>
+constexpr void AddDielectrics(KernelTable<Function<Real>>& table) {
+  AddDielectrics<kNormals>(table, std::make_index_sequence<NumDielectricQuantities(kNormals)>());
+}
+
 template <class Real, std::size_t... kPlace>
 constexpr void AddReflectors(KernelTable<Function<Real>>& table, std::index_sequence<kPlace...>) {
   ((table[kFirstReflectorKernel + kPlace] = {RunReflector<Real, kFirstReflectorKernel + kPlace>, true}), ...);
@@ -341,10 +357,9 @@ constexpr KernelTable<Function<Real>> Resolve() {
   KernelTable<Function<Real>> table{};
   for (const Entry<Real>& entry : Entries<Real>()) table[KernelIndex(entry.id)] = {entry.function, true};
   AddNormals(table, std::make_index_sequence<kNumNormalKernels>());
-  constexpr auto quantities = std::make_index_sequence<kNumDielectricQuantities>();
-  AddDielectrics<Normals::kGgx>(table, quantities);
-  AddDielectrics<Normals::kBeckmann>(table, quantities);
-  AddDielectrics<Normals::kPhong>(table, quantities);
+  AddDielectrics<Normals::kGgx>(table);
+  AddDielectrics<Normals::kBeckmann>(table);
+  AddDielectrics<Normals::kPhong>(table);
   AddReflectors(table, std::make_index_sequence<kNumReflectorKernels>());
   return table;
 }

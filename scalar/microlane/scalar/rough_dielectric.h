@@ -54,11 +54,42 @@ Facet<Real> FindFacet(const Vec3<Real>& wi, const Vec3<Real>& wo, Real eta) {
   return facet;
 }
 
-// Walter 2007 Eq. 41 of the normal m, cos_i = |wi.m|.
-template <Masking masking, template <class> class Distribution, class Real>
+// Normals with density D cos, or D_v of those visible from wi, and their density.
+template <bool visible, template <class> class Distribution, class Real>
+SampledNormal<double> SampleFacetNormal(const Distribution<Real>& distribution, const Vec3<Real>& wi, Real u1,
+                                        Real u2) {
+  if constexpr (visible) return distribution.SampleVisibleNormal(wi, u1, u2);
+  if constexpr (!visible) return distribution.SampleNormal(u1, u2);
+}
+
+// Walter 2007 Eq. 41 of the normal m, cos_i = |wi.m|; of visible normals G2/G1(wi).
+template <Masking masking, bool visible = false, template <class> class Distribution, class Real>
 double SampledWeight(const Distribution<Real>& distribution, const Vec3<Real>& wi, const Vec3<Real>& wo,
                      double cos_i, const Vec3<double>& m) {
-  return cos_i * G2OverCos<masking>(distribution, wi, wo) / m.z;
+  const double over_density = visible ? std::abs(wi.z) + distribution.ScaledLambda(wi, 1) : cos_i / m.z;
+  return over_density * G2OverCos<masking>(distribution, wi, wo);
+}
+
+// As Facet::DensityFactor for the normals visible from wi, Heitz 2014 Eq. 16, over the share of them that is
+// drawn from.
+template <template <class> class Distribution, class Real>
+double VisibleDensityFactor(const Distribution<Real>& distribution, const Vec3<Real>& wi,
+                            const Facet<Real>& facet, double share = 1) {
+  const double visible = (std::abs(wi.z) + distribution.ScaledLambda(wi, 1)) * share;
+  if (facet.lobe == kReflection) return 0.25 / visible;
+  return facet.cos_i * (facet.cos_o / Narrow<double>(facet.length2)) / visible;
+}
+
+// The density with which SampleVisibleReflection finds wo.
+template <template <class> class Distribution, class Real>
+Real PdfVisibleReflection(const Distribution<Real>& distribution, const Vec3<Real>& wi, const Vec3<Real>& wo,
+                          bool bounded) {
+  if (AnyNan(wi, wo, distribution)) return kNan<Real>;
+  const Facet<Real> facet = FindFacet(wi, wo, Real(1));
+  if (facet.lobe != kReflection) return 0;
+  const double share = distribution.ShareOfVisible(wi, bounded);
+  return Saturate<Real>(
+      distribution.DOfHalf(facet.half, VisibleDensityFactor(distribution, wi, facet, share)));
 }
 
 template <class Real>
@@ -85,22 +116,25 @@ struct RoughDielectric {
     return Eval(wi, wo, FindFacet(wi, wo, eta), wanted);
   }
 
-  // Density of wo for D cos sampling of normals; with both lobes, times the probability F or 1 - F of the
-  // lobe.
+  // Density of wo for D cos sampling of normals, or of visible ones; with both lobes, times the probability F
+  // or 1 - F of the lobe.
+  template <bool visible = false>
   Real Pdf(const Vec3<Real>& wi, const Vec3<Real>& wo, Lobes wanted) const {
     if (AnyNan(wi, wo, distribution, eta)) return kNan<Real>;
-    return Pdf(wi, wo, FindFacet(wi, wo, eta), wanted);
+    return PdfOf<visible>(wi, wo, FindFacet(wi, wo, eta), wanted);
   }
 
+  template <bool visible = false>
   EvalPdf<Real> EvalAndPdf(const Vec3<Real>& wi, const Vec3<Real>& wo) const {
     if (AnyNan(wi, wo, distribution, eta)) return {kNan<Real>, kNan<Real>};
     const Facet<Real> facet = FindFacet(wi, wo, eta);
-    return {Eval(wi, wo, facet, kBothLobes), Pdf(wi, wo, facet, kBothLobes)};
+    return {Eval(wi, wo, facet, kBothLobes), PdfOf<visible>(wi, wo, facet, kBothLobes)};
   }
 
   // Walter 2007 section 5.3; with one lobe wanted, u3 has no effect and the weight carries F or 1 - F. The
   // normal and the direction are found in double at least: near the critical angle, refraction magnifies a
   // rounding of m by c/g.
+  template <bool visible = false>
   DirectionSample<Real> Sample(const Vec3<Real>& wi, Real u1, Real u2, Real u3,
                                Lobes wanted = kBothLobes) const {
     using W = Wide<Real>;
@@ -109,7 +143,7 @@ struct RoughDielectric {
       return {{kNan<Real>, kNan<Real>, kNan<Real>}, kNan<Real>, kNan<Real>, kNoLobe};
     }
     if (wi.z == 0) return none;
-    const SampledNormal<double> normal = distribution.SampleNormal(u1, u2);
+    const SampledNormal<double> normal = SampleFacetNormal<visible>(distribution, wi, u1, u2);
     if (normal.m.z == 0) return none;
     const W side = Side(wi);
     const Vec3<W> wide_wi = Widen(wi);
@@ -129,7 +163,7 @@ struct RoughDielectric {
     const double cos_i = Narrow<double>(c);
     const double share = lobe == kReflection ? fresnel.Reflectance() : fresnel.Transmittance();
     double weight =
-        SampledWeight<masking>(distribution, wi, sample.wo, cos_i, normal.m) * (chooses ? 1 : share);
+        SampledWeight<masking, visible>(distribution, wi, sample.wo, cos_i, normal.m) * (chooses ? 1 : share);
     if (lobe == kTransmission && transport == Transport::kImportance) weight /= double{eta} * eta;
     sample.weight = Saturate<Real>(weight);
     sample.pdf = Saturate<Real>(SampledPdf((chooses ? share : 1) * normal.pdf, lobe, cos_i, fresnel));
@@ -161,9 +195,11 @@ struct RoughDielectric {
     return Saturate<Real>(distribution.DOfHalf(facet.half, scale * factor * facet.cos_i * jacobian));
   }
 
-  Real Pdf(const Vec3<Real>& wi, const Vec3<Real>& wo, const Facet<Real>& facet, Lobes wanted) const {
+  template <bool visible>
+  Real PdfOf(const Vec3<Real>& wi, const Vec3<Real>& wo, const Facet<Real>& facet, Lobes wanted) const {
     if ((facet.lobe & wanted) == 0) return 0;
     double factor = facet.DensityFactor();
+    if constexpr (visible) factor = VisibleDensityFactor(distribution, wi, facet);
     if (facet.lobe == kTransmission) factor *= double{eta} * eta;
     if (wanted == kBothLobes) factor *= Choice(wi, wo, facet);
     return Saturate<Real>(distribution.DOfHalf(facet.half, factor));

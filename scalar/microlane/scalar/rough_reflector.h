@@ -71,10 +71,12 @@ struct RoughReflector {
 
   // With the density of wo for D cos sampling of normals, Walter 2007 Eqs. 24 and 38.
   EvalPdf<Real> EvalAndPdf(const Vec3<Real>& wi, const Vec3<Real>& wo) const {
-    if (AnyNan(wi, wo, distribution, facets)) return {kNan<Real>, kNan<Real>};
-    const Facet<Real> facet = FindFacet(wi, wo, Real(1));
-    if (facet.lobe != kReflection) return {0, 0};
-    return {Eval(wi, wo, facet), Saturate<Real>(distribution.DOfHalf(facet.half, facet.DensityFactor()))};
+    return EvalAndPdf(wi, wo, [](const Facet<Real>& facet) { return facet.DensityFactor(); });
+  }
+  // With that for sampling of visible normals.
+  EvalPdf<Real> EvalAndPdfVisible(const Vec3<Real>& wi, const Vec3<Real>& wo) const {
+    return EvalAndPdf(
+        wi, wo, [&](const Facet<Real>& facet) { return VisibleDensityFactor(distribution, wi, facet); });
   }
 
   // Walter 2007 section 5.3, with Eq. 41 for the weight.
@@ -101,7 +103,28 @@ struct RoughReflector {
     return sample;
   }
 
+  // About visible normals, with F G2/G1(wi) for the weight.
+  DirectionSample<Real> SampleVisible(const Vec3<Real>& wi, Real u1, Real u2) const {
+    if (AnyNan(wi, u1, u2, distribution, facets)) {
+      return {{kNan<Real>, kNan<Real>, kNan<Real>}, kNan<Real>, kNan<Real>, kNoLobe};
+    }
+    const SampledReflection sample = SampleVisibleReflection<masking>(distribution, wi, u1, u2, false);
+    if (sample.lobe == 0) return {{0, 0, 0}, 0, 0, kNoLobe};
+    const double weight = sample.weight * facets.Reflectance(Square(Wide<Real>(sample.v_m)));
+    return {Narrow<Real>(sample.wo), Saturate<Real>(weight), Saturate<Real>(sample.pdf), kReflection};
+  }
+
  private:
+  // density_factor: the density over D, from the facet.
+  template <class DensityFactor>
+  EvalPdf<Real> EvalAndPdf(const Vec3<Real>& wi, const Vec3<Real>& wo,
+                           const DensityFactor& density_factor) const {
+    if (AnyNan(wi, wo, distribution, facets)) return {kNan<Real>, kNan<Real>};
+    const Facet<Real> facet = FindFacet(wi, wo, Real(1));
+    if (facet.lobe != kReflection) return {0, 0};
+    return {Eval(wi, wo, facet), Saturate<Real>(distribution.DOfHalf(facet.half, density_factor(facet)))};
+  }
+
   Real Eval(const Vec3<Real>& wi, const Vec3<Real>& wo, const Facet<Real>& facet) const {
     if (facet.lobe != kReflection) return 0;
     double reflectance = facets.Reflectance(facet.cos2_i);

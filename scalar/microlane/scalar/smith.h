@@ -72,25 +72,27 @@ struct VisibleNormal {
 struct SampledReflection {
   Vec3<double> wo;
   double weight, pdf, lobe;
+  double v_m;  // |wi.m|
 };
 
 // Walter 2007 Eqs. 14 and 39 about m of SampleVisibleNormal. weight = f |cos| / pdf = G2/G1 times the share
 // of the visible normals that are drawn from, where F, D and the Jacobian are gone: (|wi.n| (1 + Lambda_i)) /
-// (|wi.n| (1 + Lambda_i + Lambda_o)).
-template <template <class> class Distribution, class Real>
+// (|wi.n| (1 + Lambda_i + Lambda_o)), or G1(wo).
+template <Masking masking = Masking::kHeightCorrelated, template <class> class Distribution, class Real>
 SampledReflection SampleVisibleReflection(const Distribution<Real>& distribution, const Vec3<Real>& wi,
                                           double u1, double u2, bool bounded) {
   const auto [normal, v_m] = distribution.SampleFacing(wi, u1, u2, bounded);
-  if (AnyNan(normal.m)) return {normal.m, kNan<double>, kNan<double>, kNan<double>};
+  if (AnyNan(normal.m)) return {normal.m, kNan<double>, kNan<double>, kNan<double>, v_m};
   const double side = Side(wi);
   const Vec3<double> v{side * wi.x, side * wi.y, side * wi.z};
   const Vec3<double> wo = (2 * Dot(v, normal.m)) * normal.m - v;  // of the length of v
-  if (!(wo.z > 0)) return {{0, 0, 0}, 0, 0, 0};
-  const double cos_i = v.z + distribution.ScaledLambda(wi, 1);
-  const double lambda_o =
-      Distribution<double>{distribution.alpha_x, distribution.alpha_y}.ScaledLambda(wo, v.z / wo.z);
+  if (!(wo.z > 0)) return {{0, 0, 0}, 0, 0, 0, v_m};
+  const bool separable = masking == Masking::kSeparable;
+  const double cos_i = separable ? 1 : v.z + distribution.ScaledLambda(wi, 1);  // times Lambda_o's factor
+  const double lambda_o = Distribution<double>{distribution.alpha_x, distribution.alpha_y}.ScaledLambda(
+      wo, (separable ? 1 : v.z) / wo.z);
   return {side * wo, distribution.ShareOfVisible(wi, bounded) * cos_i / (cos_i + lambda_o),
-          normal.pdf / (4 * v_m), 1};
+          normal.pdf / (4 * v_m), 1, v_m};
 }
 
 }  // namespace microlane::scalar
