@@ -774,6 +774,7 @@ float DirectionalCorrelation(float phi) { return 4.41f * phi / (4.41f * phi + 1)
 void AzimuthsApart(const float* in, float* out, Transport) { out[0] = AzimuthDifference(in); }
 void JointSeparable(const float* in, float* out, Transport) { out[0] = 1 / (1 + in[0]) * (1 / (1 + in[1])); }
 void JointHeight(const float* in, float* out, Transport) { out[0] = 1 / (1 + in[0] + in[1]); }
+void JointTransmission(const float* in, float* out, Transport) { out[0] = std::beta(1 + in[0], 1 + in[1]); }
 void JointDirection(const float* in, float* out, Transport) {
   const float g_i = 1 / (1 + in[0]), g_o = 1 / (1 + in[1]);
   const float lambda = DirectionalCorrelation(AzimuthDifference(in + 2));
@@ -888,6 +889,7 @@ constexpr std::array kEntries = {
     Make<KernelIndex("masking.kelemen"), MaskingKelemen>(),
     Make<KernelIndex("masking.separable"), JointSeparable>(),
     Make<KernelIndex("masking.height_correlated"), JointHeight>(),
+    Make<KernelIndex("masking.height_correlated_transmission"), JointTransmission>(),
     Make<KernelIndex("masking.direction_correlated"), JointDirection>(),
     Make<KernelIndex("masking.height_direction_correlated"), JointHeightDirection>(),
 };

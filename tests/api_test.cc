@@ -239,6 +239,7 @@ const std::vector<Row<T>>& Rows() {
       {"masking.separable", [](A& a) { masking::Separable(a.n, a.Lanes(0), a.Lanes(1), a.Out(0), a.accuracy); }},
       {"masking.height_correlated", [](A& a) { masking::HeightCorrelated(a.n, a.Lanes(0), a.Lanes(1), a.Out(0), a.accuracy); }},
       {"masking.direction_correlated", [](A& a) { masking::DirectionCorrelated(a.n, a.Lanes(0), a.Lanes(1), {a.Lanes(2), a.Lanes(3), nullptr}, {a.Lanes(4), a.Lanes(5), nullptr}, a.Out(0), a.accuracy); }},
+      {"masking.height_correlated_transmission", [](A& a) { masking::HeightCorrelatedTransmission(a.n, a.Lanes(0), a.Lanes(1), a.Out(0), a.accuracy); }},
       {"masking.height_direction_correlated", [](A& a) { masking::HeightDirectionCorrelated(a.n, a.Lanes(0), a.Lanes(1), {a.Lanes(2), a.Lanes(3), nullptr}, {a.Lanes(4), a.Lanes(5), nullptr}, a.Out(0), a.accuracy); }},
   };
   // clang-format on

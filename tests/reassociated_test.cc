@@ -104,6 +104,13 @@ struct JointCase {
     out.v0 = JointG2<kForm, A>(d, in...);
   }
 };
+struct TransmissionCase {
+  static constexpr std::string_view kId = "masking.height_correlated_transmission";
+  template <Accuracy A, class D, class... V>
+  static void Eval(D d, const Options<D>&, const Outputs<D>& out, V... in) {
+    out.v0 = TransmissionG2(d, in...);
+  }
+};
 struct HalfReflectionCase {
   static constexpr std::string_view kId = "half_vector.reflection";
   template <Accuracy A, class D, class... V>
@@ -215,8 +222,8 @@ Cases CasesOnTarget() {
       FresnelCase<FresnelPart::kUnpolarised>, FresnelCase<FresnelPart::kS>, FresnelCase<FresnelPart::kP>,
       FresnelCase<FresnelPart::kTransmittance>, ConductorCase, SchlickCase, VCavityCase, SchlickSmithCase,
       KelemenCase, JointCase<JointForm::kHeight>, JointCase<JointForm::kDirection>,
-      JointCase<JointForm::kHeightDirection>, HalfReflectionCase, HalfRefractionCase, HalfJacobianCase,
-      HalfJacobianCosCase, ReflectCase, RefractCase, DielectricCase<Ggx, ggx, kEval>,
+      JointCase<JointForm::kHeightDirection>, TransmissionCase, HalfReflectionCase, HalfRefractionCase,
+      HalfJacobianCase, HalfJacobianCosCase, ReflectCase, RefractCase, DielectricCase<Ggx, ggx, kEval>,
       DielectricCase<Ggx, ggx, kEvalReflection>, DielectricCase<Ggx, ggx, kEvalTransmission>,
       DielectricCase<Ggx, ggx, kEvalSeparable>, DielectricCase<Ggx, ggx, kPdf>,
       DielectricCase<Ggx, ggx, kPdfReflection>, DielectricCase<Ggx, ggx, kPdfTransmission>,

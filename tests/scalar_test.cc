@@ -118,6 +118,7 @@ constexpr ScalarBound kScalarBounds[] = {
     {"masking.kelemen", 0.51, 0.51},
     {"masking.separable", 0.51, 2.5},
     {"masking.height_correlated", 0.51, 2},
+    {"masking.height_correlated_transmission", 0.51, 4000},
     {"masking.direction_correlated", 0.51, 3.5},
     {"masking.height_direction_correlated", 0.51, 2.5},
     {"half_vector.reflection", 0.51, 0.51},

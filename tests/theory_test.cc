@@ -360,6 +360,41 @@ TEST(Masking, JointFormsAreReciprocalAndOrderedByTheirCorrelation) {
   });
 }
 
+// Of the share t of heights below a facet, t^Lambda_i leaves it unmasked from above and (1 - t)^Lambda_o from
+// below: their mean, with t = sin^2 x, is G2 in transmission. It is less than that of reflection, whose mean
+// is of t^(Lambda_i + Lambda_o), and the same where one Lambda is 0.
+TEST(Masking, TransmissionIsTheMeanOverHeights) {
+  constexpr std::string_view kTransmitted = "masking.height_correlated_transmission",
+                             kReflected = "masking.height_correlated";
+  ForEachLaneType([&](auto lane, Accuracy accuracy, const std::string& name) {
+    using T = decltype(lane);
+    const Mode mode{accuracy};
+    const double declared = DeclaredError<T>(kTransmitted, accuracy);
+    const double both = declared + DeclaredError<T>(kReflected, accuracy);
+    Tally mean("G2 = mean over heights, " + name), less("G2 / that of reflection at most 1, " + name);
+    Tally one_side("G2 = that of reflection where one Lambda is 0, " + name);
+    const Rule rule = GaussLegendre(600);
+    for (const float i : {0.0f, 1e-20f, 1e-6f, 0.03f, 0.2f, 1.0f, 5.5f, 30.0f, 200.0f}) {
+      for (const float o : {0.0f, 1e-12f, 1e-3f, 0.5f, 1.0f, 7.0f, 25.0f, 300.0f, 1e6f, 3e38f}) {
+        const auto where = [&] { return Text("Lambda %g %g", i, o); };
+        const double g2 = RunOne<T>(kTransmitted, 1, mode, double{i}, double{o})[0];
+        const double reflected = RunOne<T>(kReflected, 1, mode, double{i}, double{o})[0];
+        less.Add(std::max(0.0, g2 / reflected - 1), both + 1e-15, where);
+        if (i == 0) one_side.AddRelative(g2, reflected, both + 1e-15, where);
+        if (o > 300) continue;  // a peak that needs nodes of its own
+        double expected = 0;
+        for (std::size_t k = 0; k < rule.node.size(); ++k) {
+          const double x = kTestPi / 4 * (1 + rule.node[k]), sine = std::sin(x), cosine = std::cos(x);
+          expected +=
+              kTestPi / 2 * rule.weight[k] * std::pow(sine, 2.0 * i + 1) * std::pow(cosine, 2.0 * o + 1);
+        }
+        if (expected < double{std::numeric_limits<T>::min()}) continue;
+        mean.AddRelative(g2, expected, declared + 1e-9, where);
+      }
+    }
+  });
+}
+
 // Heitz 2014, Eq. 36 with the normals as nodes: wo is reflected at each, and half vector, its Jacobian, D and
 // G1 are then taken of wi and wo.
 TEST(WeakWhiteFurnace, ReflectsEverything) {

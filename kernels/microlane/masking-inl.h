@@ -123,6 +123,60 @@ struct DirectionalMaskingOp {
   }
 };
 
+// B(1 + Lambda_i, 1 + Lambda_o), B Euler's Beta function, in double lanes. With l and g the lesser and the
+// greater Lambda, p = l + 7, q = g + 7, r = p + q, it is R B(p, q), where R, of six steps of Gamma's
+// recurrence each, is the first below, and Stirling's series gives the second: every logarithm is of a ratio,
+// so that huge ones cancel nowhere.
+//   prod_k (l + g + 2 k)/(g + k) * prod_k (l + g + 2 k + 1)/(l + k),  k = 1 ... 6
+//   log B(p, q) = -(p - 1/2) log(r/p) - q log(1 + p/q) - log(q/(2 pi))/2 + S(p) + S(q) - S(r)
+struct TransmissionMaskingOp {
+  // S(x) = log Gamma(x) - (x - 1/2) log x + x - log(2 pi)/2 for x >= 7, within 2^-53.
+  template <class DD>
+  static HWY_INLINE Vec<DD> Stirling(DD d, Vec<DD> x) {
+    const Vec<DD> y = hn::Div(Const(d, 1), x);
+    return hn::Mul(y, Polynomial(d, hn::Mul(y, y),
+                                 {1.0 / 12, -1.0 / 360, 1.0 / 1260, -1.0 / 1680, 1.0 / 1188, -691.0 / 360360,
+                                  1.0 / 156, -3617.0 / 122400, 43867.0 / 244188}));
+  }
+
+  template <Accuracy A, class DD>
+  static HWY_INLINE void Run(DD d, Vec<DD>& g2, Vec<DD>& unused, Vec<DD> lambda_i, Vec<DD> lambda_o) {
+    static_assert(!kIsFloat<DD>, "products of six Lambdas");
+    constexpr int kSteps = 6;
+    const Vec<DD> one = Const(d, 1), shift = Const(d, kSteps + 1);
+    // Total: Lambdas outside [0, 2^129) count as its ends; NaN passes.
+    const Vec<DD> high = Const(d, 0x1p129);
+    lambda_i = ZeroIf(hn::Lt(lambda_i, hn::Zero(d)), hn::IfThenElse(hn::Gt(lambda_i, high), high, lambda_i));
+    lambda_o = ZeroIf(hn::Lt(lambda_o, hn::Zero(d)), hn::IfThenElse(hn::Gt(lambda_o, high), high, lambda_o));
+    const Vec<DD> l = hn::Min(lambda_i, lambda_o), g = hn::Max(lambda_i, lambda_o), sum = hn::Add(l, g);
+    Vec<DD> even = one, odd = one, of_g = one, of_l = one;
+    for (int k = 1; k <= kSteps; ++k) {
+      even = hn::Mul(even, hn::Add(sum, Const(d, 2 * k)));
+      odd = hn::Mul(odd, hn::Add(sum, Const(d, 2 * k + 1)));
+      of_g = hn::Mul(of_g, hn::Add(g, Const(d, k)));
+      of_l = hn::Mul(of_l, hn::Add(l, Const(d, k)));
+    }
+    const Vec<DD> recurrence = hn::Mul(hn::Div(even, of_g), hn::Div(odd, of_l));
+    const Vec<DD> p = hn::Add(l, shift), q = hn::Add(g, shift), r = hn::Add(p, q);
+    // log(1 + x) of x = p/q: that of the rounded sum, and what it lacks.
+    const Vec<DD> x = hn::Div(p, q), x1 = hn::Add(x, one);
+    const Vec<DD> log_x1 = hn::Add(Log<A>(d, x1), hn::Div(hn::Sub(x, hn::Sub(x1, one)), x1));
+    const Vec<DD> of_p = hn::Mul(hn::Sub(p, Const(d, 0.5)), Log<A>(d, hn::Div(r, p)));
+    const Vec<DD> of_q =
+        hn::MulAdd(q, log_x1, hn::Mul(Const(d, 0.5), Log<A>(d, hn::Mul(q, Const(d, 0.5 / kPi)))));
+    const Vec<DD> rest = hn::Sub(hn::Add(Stirling(d, p), Stirling(d, q)), Stirling(d, r));
+    g2 = unused = ExpTimes<A>(d, hn::Neg(hn::Add(of_p, of_q)), rest, recurrence);
+  }
+};
+
+// G2 of heights that transmission correlates: 1 where both Lambdas are 0.
+template <class D>
+HWY_INLINE Vec<D> TransmissionG2(D d, Vec<D> lambda_i, Vec<D> lambda_o) {
+  Vec<D> g2, unused;
+  InDouble2<InStandard<TransmissionMaskingOp>>(d, g2, unused, lambda_i, lambda_o);
+  return g2;
+}
+
 // G2 of the forms that take the azimuths. Eq. 100 takes more roundings than kStandard has room for.
 template <JointForm kForm, Accuracy A, class D>
 HWY_INLINE Vec<D> JointG2(D d, Vec<D> lambda_i, Vec<D> lambda_o, Vec<D> wix, Vec<D> wiy, Vec<D> wox,

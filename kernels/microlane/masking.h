@@ -50,6 +50,12 @@ template <class T>
 void HeightCorrelated(std::size_t n, const T* lambda_i, const T* lambda_o, T* g2,
                       Accuracy accuracy = Accuracy::kStandard);
 
+// Of light that is refracted, whose heights are correlated the other way: B(1 + Lambda_i, 1 + Lambda_o), B
+// Euler's Beta function; never more than HeightCorrelated. masking.height_correlated_transmission.
+template <class T>
+void HeightCorrelatedTransmission(std::size_t n, const T* lambda_i, const T* lambda_o, T* g2,
+                                  Accuracy accuracy = Accuracy::kStandard);
+
 // Those correlated by direction blend from no shadowing of what is seen, where wi and wo have one azimuth, by
 // lambda = 4.41 phi / (4.41 phi + 1), phi the difference of their azimuths within [0, pi], 0 where one is
 // undefined. Of wi and wo, x and y are read.

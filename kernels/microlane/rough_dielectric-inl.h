@@ -242,6 +242,16 @@ struct DielectricInterface {
   static constexpr bool kHasG = true;            // F depends on g^2 = q0^2 - 1 + c^2
 };
 
+// x/y, by r = 1/y where that is at hand.
+template <bool kInverse, Accuracy A, class D>
+HWY_INLINE Vec<D> OverDenominator(D d, Vec<D> x, Vec<D> y, Vec<D> r) {
+  if constexpr (kInverse) {
+    return DivByReciprocal<A>(d, x, y, r);
+  } else {
+    return Div<A>(d, x, y);
+  }
+}
+
 // NOLINTBEGIN(misc-const-correctness): what one instantiation leaves alone, another assigns.
 // c^2, s^2 and what the rounding of s^2 took, times H.H in double lanes, for whoever adds facets of its own.
 template <class D>
@@ -463,10 +473,10 @@ HWY_INLINE void RoughSurfacePass(D d, hn::Mask<D> radiance, Vec<D>& value, Vec<D
   // What may be tiny of itself (a cosine) is multiplied last.
   Vec<D> r = one;
   // The errors of two roots add up in the separable masking; kFast leaves none to the division there.
-  constexpr bool kRefined = kFast && kG == JointMasking::kSeparable;
+  constexpr bool kRefined = kFast && kG == JointMasking::kSeparable, kInverse = kRefined || (kValue && kPdf);
   if constexpr (kRefined) {
     r = RefinedReciprocal<A>(d, denominator);
-  } else if constexpr (kValue && kPdf) {
+  } else if constexpr (kInverse) {
     r = Reciprocal<A>(d, denominator);
   }
   if constexpr (kCarefulExponent) {
@@ -491,7 +501,7 @@ HWY_INLINE void RoughSurfacePass(D d, hn::Mask<D> radiance, Vec<D>& value, Vec<D
     if constexpr (kTransmits) transmitted = hn::Mul(transmission, hn::IfThenElse(radiance, eta2, one));
     const Vec<D> x = OfLobe<kLobes>(transmits, transmitted, reflection);
     const Vec<D> numerator = hn::Mul(hn::Mul(kPdf ? hn::Mul(ws, Const(d, kFactor)) : ws, x), fresnel);
-    value = hn::Mul(kPdf || kRefined ? hn::Mul(numerator, r) : Div<A>(d, numerator, denominator), zo);
+    value = hn::Mul(OverDenominator<kInverse, A>(d, numerator, denominator, r), zo);
     if constexpr (Dist::kHasExponent) value = ExpTimes<A>(d, log_high, log_low, value);
     value = ZeroIf(invalid, value);
   }
@@ -507,7 +517,8 @@ HWY_INLINE void RoughSurfacePass(D d, hn::Mask<D> radiance, Vec<D>& value, Vec<D
       invalid = hn::Or(invalid, transmits);
       if constexpr (kNeedsFresnel) x = hn::Mul(x, hn::Mul(hn::Mul(a, a), m2));
     }
-    x = kValue ? hn::Mul(hn::Mul(x, masking), r) : Div<A>(d, x, denominator);
+    if constexpr (kValue) x = hn::Mul(x, masking);
+    x = OverDenominator<kInverse, A>(d, x, denominator, r);
     if constexpr (kOfVisible) {
       x = hn::Mul(x, Const(d, kTransmits ? 2 : 0.5));
       if constexpr (kValue) x = Div<A>(d, x, visible);

@@ -56,10 +56,19 @@ struct JointKernel {
   }
 };
 
+struct TransmissionKernel {
+  static constexpr std::string_view kId = "masking.height_correlated_transmission";
+  template <Accuracy, class D, class... V>
+  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, V... in) {
+    out.v0 = TransmissionG2(d, in...);
+  }
+};
+
 FamilyCode FamilyOnTarget() {
   return Family<VCavityKernel, ImplicitKernel, SchlickSmithKernel, KelemenKernel,
                 JointKernel<JointForm::kSeparable>, JointKernel<JointForm::kHeight>,
-                JointKernel<JointForm::kDirection>, JointKernel<JointForm::kHeightDirection>>();
+                JointKernel<JointForm::kDirection>, JointKernel<JointForm::kHeightDirection>,
+                TransmissionKernel>();
 }
 
 }  // namespace
@@ -81,6 +90,12 @@ namespace {
 template <std::size_t kKernel, class T>
 void OfFacet(std::size_t n, const Directions<T>& v, const Directions<T>& m, T* g1, Accuracy accuracy) {
   CallBuilder<T>().In(v).In(m).Out(g1).template Run<kKernel>(MaskingTable(), accuracy, n);
+}
+
+// A joint form.
+template <std::size_t kKernel, class T>
+void OfLambdas(std::size_t n, const T* lambda_i, const T* lambda_o, T* g2, Accuracy accuracy) {
+  CallBuilder<T>().In(lambda_i).In(lambda_o).Out(g2).template Run<kKernel>(MaskingTable(), accuracy, n);
 }
 
 // A joint form of the directions' azimuths too.
@@ -118,14 +133,18 @@ void SchlickSmith(std::size_t n, DirectionsOf<T> v, DirectionsOf<T> m, Parameter
 
 template <class T>
 void Separable(std::size_t n, const T* lambda_i, const T* lambda_o, T* g2, Accuracy accuracy) {
-  CallBuilder<T>().In(lambda_i).In(lambda_o).Out(g2).template Run<KernelIndex("masking.separable")>(
-      MaskingTable(), accuracy, n);
+  OfLambdas<KernelIndex("masking.separable")>(n, lambda_i, lambda_o, g2, accuracy);
 }
 
 template <class T>
 void HeightCorrelated(std::size_t n, const T* lambda_i, const T* lambda_o, T* g2, Accuracy accuracy) {
-  CallBuilder<T>().In(lambda_i).In(lambda_o).Out(g2).template Run<KernelIndex("masking.height_correlated")>(
-      MaskingTable(), accuracy, n);
+  OfLambdas<KernelIndex("masking.height_correlated")>(n, lambda_i, lambda_o, g2, accuracy);
+}
+
+template <class T>
+void HeightCorrelatedTransmission(std::size_t n, const T* lambda_i, const T* lambda_o, T* g2,
+                                  Accuracy accuracy) {
+  OfLambdas<KernelIndex("masking.height_correlated_transmission")>(n, lambda_i, lambda_o, g2, accuracy);
 }
 
 template <class T>
@@ -147,6 +166,7 @@ void HeightDirectionCorrelated(std::size_t n, const T* lambda_i, const T* lambda
   template void SchlickSmith(std::size_t, Directions<T>, Directions<T>, Parameter<T>, T*, Accuracy);         \
   template void Separable(std::size_t, const T*, const T*, T*, Accuracy);                                    \
   template void HeightCorrelated(std::size_t, const T*, const T*, T*, Accuracy);                             \
+  template void HeightCorrelatedTransmission(std::size_t, const T*, const T*, T*, Accuracy);                 \
   template void DirectionCorrelated(std::size_t, const T*, const T*, Directions<T>, Directions<T>, T*,       \
                                     Accuracy);                                                               \
   template void HeightDirectionCorrelated(std::size_t, const T*, const T*, Directions<T>, Directions<T>, T*, \

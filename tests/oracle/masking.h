@@ -56,6 +56,18 @@ inline Real HeightCorrelatedG2(const Real& lambda_i, const Real& lambda_o) {
   return 1 / (1 + lambda_o + lambda_i);
 }
 
+inline Real LogGamma(const Real& x) {
+  Real result;
+  int sign;
+  mpfr_lgamma(result.backend().data(), &sign, x.backend().data(), MPFR_RNDN);
+  return result;
+}
+
+// B(1 + Lambda_i, 1 + Lambda_o). Of the largest floats log Gamma leaves 300 bits.
+inline Real HeightCorrelatedTransmissionG2(const Real& lambda_i, const Real& lambda_o) {
+  return exp(LogGamma(1 + lambda_i) + LogGamma(1 + lambda_o) - LogGamma(2 + lambda_i + lambda_o));
+}
+
 // Heitz 2014, Eq. 100.
 inline Real DirectionCorrelatedG2(const Real& lambda_i, const Real& lambda_o, const Real& phi) {
   const Real lambda = DirectionalCorrelation(phi), g_i = 1 / (1 + lambda_i), g_o = 1 / (1 + lambda_o);

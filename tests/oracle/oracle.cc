@@ -354,6 +354,8 @@ constexpr Entry kEntries[] = {
     {"masking.separable", [](Call& call) { call.out[0] = SeparableG2(call.in[0], call.in[1]); }},
     {"masking.height_correlated",
      [](Call& call) { call.out[0] = HeightCorrelatedG2(call.in[0], call.in[1]); }},
+    {"masking.height_correlated_transmission",
+     [](Call& call) { call.out[0] = HeightCorrelatedTransmissionG2(call.in[0], call.in[1]); }},
     {"masking.direction_correlated",
      [](Call& call) {
        const Real phi = AzimuthDifference(call.in[2], call.in[3], call.in[4], call.in[5]);

@@ -312,6 +312,10 @@ constexpr auto Entries() {
                   [](const Real* in, Real* out, Transport) { out[0] = SeparableG2(in[0], in[1]); }},
       Entry<Real>{"masking.height_correlated",
                   [](const Real* in, Real* out, Transport) { out[0] = HeightCorrelatedG2(in[0], in[1]); }},
+      Entry<Real>{"masking.height_correlated_transmission",
+                  [](const Real* in, Real* out, Transport) {
+                    out[0] = HeightCorrelatedTransmissionG2(in[0], in[1]);
+                  }},
       Entry<Real>{"masking.direction_correlated",
                   [](const Real* in, Real* out, Transport) {
                     out[0] =
