@@ -156,9 +156,16 @@ HWY_INLINE void InterfaceTermsSplit(D d, Vec<D>& ih, Vec<D>& oh, Vec<D>& h2, Vec
     h2 = hn::MulAdd(r, r, hn::MulAdd(two_e, w, hn::MulAdd(two_e, w_low, hn::MulAdd(e2, b, a))));
     const Vec<D> w1 = hn::Add(w, w_low), eoh = hn::Mul(e, oh);
     const Vec<D> cross2 = hn::MulAdd(hn::Sub(two, w1), w1, hn::MulAdd(a, b, hn::Add(a, b)));
-    c2 = OfLobe<kLobes>(transmits, hn::Mul(ih, ih), c2r);
-    s2 = OfLobe<kLobes>(transmits, hn::NegMulAdd(a, h2, hn::Mul(e2, cross2)), s2r);
-    g2 = OfLobe<kLobes>(transmits, hn::MulAdd(eoh, eoh, hn::Mul(hn::NegMulAdd(e2, b, a), h2)), g2r);
+    // Where neither cancels, s^2 = H.H - c^2 and g^2 = k H.H + c^2: an error of H.H that all share leaves F
+    // and T alone.
+    const Vec<D> c2t = hn::Mul(ih, ih);
+    const Vec<D> s2t = hn::IfThenElse(hn::Lt(hn::Add(c2t, c2t), h2), hn::NegMulAdd(ih, ih, h2),
+                                      hn::NegMulAdd(a, h2, hn::Mul(e2, cross2)));
+    const Vec<D> g2t = hn::IfThenElse(hn::Gt(k, hn::Zero(d)), hn::MulAdd(k, h2, c2t),
+                                      hn::MulAdd(eoh, eoh, hn::Mul(hn::NegMulAdd(e2, b, a), h2)));
+    c2 = OfLobe<kLobes>(transmits, c2t, c2r);
+    s2 = OfLobe<kLobes>(transmits, s2t, s2r);
+    g2 = OfLobe<kLobes>(transmits, g2t, g2r);
     c2_plus_g2 = OfLobe<kLobes>(transmits, hn::Add(c2, g2), sum_r);
     h4 = hn::Mul(h2, h2);
   }
