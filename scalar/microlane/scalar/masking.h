@@ -96,7 +96,9 @@ inline double StirlingRest(double x) {
 template <class Real>
 Real HeightCorrelatedTransmissionG2(Real lambda_i, Real lambda_o) {
   if (AnyNan(lambda_i, lambda_o)) return kNan<Real>;
-  const double l = std::min(lambda_i, lambda_o), g = std::max(lambda_i, lambda_o);
+  // Total: Lambdas outside [0, 2^129) count as its ends.
+  const double i = std::clamp<double>(lambda_i, 0, 0x1p129), o = std::clamp<double>(lambda_o, 0, 0x1p129);
+  const double l = std::min(i, o), g = std::max(i, o);
   double recurrence = 1;
   for (int k = 1; k <= 6; ++k) {
     recurrence *= (l + g + 2 * k) / (g + k) * ((l + g + 2 * k + 1) / (l + k));
