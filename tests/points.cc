@@ -1229,10 +1229,17 @@ class ExtremeMaker {
   std::set<std::pair<std::string_view, Point>> seen_;
 };
 
+// Of a kernel's name, so that its points stay the same whatever else the list holds: FNV-1a.
+std::uint64_t SeedOf(std::string_view id) {
+  std::uint64_t hash = 0xCBF29CE484222325u;
+  for (const char c : id) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3u;
+  return hash;
+}
+
 }  // namespace
 
 RandomPoints::RandomPoints(std::size_t kernel, std::uint64_t seed, Values values)
-    : kernel_(kernel), seed_(seed + 0x10001 * kernel), values_(values) {}
+    : kernel_(kernel), seed_(seed + SeedOf(kKernels[kernel].id)), values_(values) {}
 
 Point RandomPoints::operator()(std::uint64_t index) const {
   Random random(seed_, index);

@@ -54,7 +54,7 @@ using Scene = std::array<double, sizeof(kInputs) / sizeof(kInputs[0])>;
 // Random points of one kernel, where it is hard: lobes, their edges and tails, grazing, mirrored, opposite
 // and refracted pairs, critical and Brewster's angles, indices near 1, edges of the random numbers. Values
 // are within the domains of the kernel list, directions are unit vectors to a few roundings. A point depends
-// on the seed and its index alone.
+// on the kernel's id, the seed and its index alone.
 class RandomPoints {
  public:
   RandomPoints(std::size_t kernel, std::uint64_t seed, Values values = Values::kFloats);
