@@ -420,9 +420,12 @@ using FresnelOf = std::conditional_t<
     kReflector == Reflector::kMirror, MirrorFresnel,
     std::conditional_t<kReflector == Reflector::kConductor, ConductorFresnel, SchlickFresnel>>;
 
-template <bool kSeparable, class Distribution>
-float Masking(const Distribution& distribution, const Vec3& wi, const Vec3& wo) {
-  if constexpr (kSeparable) {
+template <DielectricQuantity::Joint kJoint, class Distribution>
+float Masking(const Distribution& distribution, const Vec3& wi, const Vec3& wo, const Vec3& wm) {
+  if constexpr (kJoint == DielectricQuantity::kVCavity) {
+    const float facing = AbsDot(wi, wm), two_cos = 2 * AbsCosTheta(wm);
+    return std::min(1.f, std::min(two_cos * AbsCosTheta(wi) / facing, two_cos * AbsCosTheta(wo) / facing));
+  } else if constexpr (kJoint == DielectricQuantity::kSeparable) {
     return 1 / ((1 + distribution.Lambda(wi)) * (1 + distribution.Lambda(wo)));
   } else {
     return 1 / (1 + distribution.Lambda(wi) + distribution.Lambda(wo));
@@ -437,7 +440,8 @@ float VisibleDensity(const Distribution& distribution, const Vec3& w, const Vec3
 }
 
 // eta is 1 of what only reflects.
-template <class Distribution, bool kSeparable, class Fresnel = DielectricFresnel, bool kVisible = false>
+template <class Distribution, DielectricQuantity::Joint kJoint, class Fresnel = DielectricFresnel,
+          bool kVisible = false>
 struct RoughDielectric {
   Distribution distribution;
   float eta;
@@ -450,7 +454,9 @@ struct RoughDielectric {
     int lobe;
   };
 
-  float G(const Vec3& wi, const Vec3& wo) const { return Masking<kSeparable>(distribution, wi, wo); }
+  float G(const Vec3& wi, const Vec3& wo, const Vec3& wm) const {
+    return Masking<kJoint>(distribution, wi, wo, wm);
+  }
 
   // The normal that takes wi to wo, on the upper side; false if there is none.
   bool HalfVector(const Vec3& wi, const Vec3& wo, int lobes, bool* reflects, Vec3* wm) const {
@@ -470,9 +476,9 @@ struct RoughDielectric {
     if (!HalfVector(wi, wo, lobes, &reflects, &wm)) return 0;
     const float F = fresnel(Dot(wi, wm));
     const float cos_i = AbsCosTheta(wi), cos_o = AbsCosTheta(wo);
-    if (reflects) return distribution.D(wm) * G(wi, wo) * F / (4 * cos_i * cos_o) * cos_o;
+    if (reflects) return distribution.D(wm) * G(wi, wo, wm) * F / (4 * cos_i * cos_o) * cos_o;
     const float denominator = Sqr(Dot(wi, wm) + eta * Dot(wo, wm)) * cos_i * cos_o;
-    float f = Sqr(eta) * distribution.D(wm) * (1 - F) * G(wi, wo) *
+    float f = Sqr(eta) * distribution.D(wm) * (1 - F) * G(wi, wo, wm) *
               std::abs(Dot(wi, wm) * Dot(wo, wm) / denominator);
     if (transport == Transport::kImportance) f /= Sqr(eta);
     return f * cos_o;
@@ -525,8 +531,8 @@ struct RoughDielectric {
       sample.lobe = kTransmission;
       sample.pdf = pt * pdf_wm * Sqr(eta) * AbsDot(sample.wo, wm) / Sqr(cos_i + eta * Dot(sample.wo, wm));
     }
-    sample.weight = kVisible ? G(wi, sample.wo) * (1 + distribution.Lambda(wi))
-                             : cos_i * G(wi, sample.wo) / (AbsCosTheta(wi) * AbsCosTheta(wm));
+    sample.weight = kVisible ? G(wi, sample.wo, wm) * (1 + distribution.Lambda(wi))
+                             : cos_i * G(wi, sample.wo, wm) / (AbsCosTheta(wi) * AbsCosTheta(wm));
     if (lobes != kBoth) sample.weight *= sample.lobe == kReflection ? F : 1 - F;
     if (sample.lobe == kTransmission && transport == Transport::kImportance) sample.weight /= Sqr(eta);
     return sample;
@@ -571,7 +577,7 @@ struct VisibleReflection {
   Vec3 wo;
   float weight, pdf, lobe;
 };
-template <bool kBounded, bool kSeparable, class Distribution, class Fresnel>
+template <bool kBounded, DielectricQuantity::Joint kJoint, class Distribution, class Fresnel>
 VisibleReflection SampleVisibleReflection(const Distribution& distribution, const Fresnel& fresnel,
                                           const Vec3& wi, float u1, float u2) {
   const Vec3 w = wi.z < 0 ? -wi : wi;
@@ -584,7 +590,32 @@ VisibleReflection SampleVisibleReflection(const Distribution& distribution, cons
   const Vec3 wo = Reflect(w, wm);
   if (!SameHemisphere(w, wo)) return {{0, 0, 0}, 0, 0, 0};
   const float pdf = VisibleReflectionDensity<kBounded>(distribution, w, wm);
-  const float g = Masking<kSeparable>(distribution, w, wo);
+  const float g = Masking<kJoint>(distribution, w, wo, wm);
+  const float f = fresnel(Dot(w, wm)) * distribution.D(wm) * g / (4 * AbsCosTheta(w) * AbsCosTheta(wo));
+  return {wi.z < 0 ? -wo : wo, f * AbsCosTheta(wo) / pdf, pdf, 1};
+}
+
+// Heitz and d'Eon 2014: the density of the normals that V-cavities show, and a normal of it.
+template <class Distribution>
+float VCavityDensity(const Distribution& distribution, const Vec3& w, const Vec3& wm) {
+  if (Dot(w, wm) * CosTheta(w) <= 0 || CosTheta(wm) <= 0) return 0;
+  const float g1 = std::min(1.f, 2 * CosTheta(wm) * AbsCosTheta(w) / AbsDot(w, wm));
+  return g1 * AbsDot(w, wm) * distribution.D(wm) / AbsCosTheta(w);
+}
+template <class Distribution>
+Vec3 SampleVCavityNormal(const Distribution& distribution, const Vec3& wi, float u1, float u2, float u3) {
+  const Vec3 w = wi.z < 0 ? -wi : wi, wm = distribution.SampleNormal(u1, u2), other{-wm.x, -wm.y, wm.z};
+  const float seen = std::max(0.f, Dot(w, wm)), seen_other = std::max(0.f, Dot(w, other));
+  return u3 < seen_other / (seen + seen_other) ? other : wm;
+}
+template <class Distribution, class Fresnel>
+VisibleReflection SampleVCavityReflection(const Distribution& distribution, const Fresnel& fresnel,
+                                          const Vec3& wi, float u1, float u2, float u3) {
+  const Vec3 w = wi.z < 0 ? -wi : wi, wm = SampleVCavityNormal(distribution, w, u1, u2, u3);
+  const Vec3 wo = Reflect(w, wm);
+  if (!(Dot(w, wm) > 0) || !SameHemisphere(w, wo)) return {{0, 0, 0}, 0, 0, 0};
+  const float pdf = VCavityDensity(distribution, w, wm) / (4 * AbsDot(w, wm));
+  const float g = Masking<DielectricQuantity::kVCavity>(distribution, w, wo, wm);
   const float f = fresnel(Dot(w, wm)) * distribution.D(wm) * g / (4 * AbsCosTheta(w) * AbsCosTheta(wo));
   return {wi.z < 0 ? -wo : wo, f * AbsCosTheta(wo) / pdf, pdf, 1};
 }
@@ -632,6 +663,12 @@ void OfNormals(const float* in, float* out, Transport) {
     out[0] = Dot(w, Load(in + 3)) * CosTheta(w) <= 0 ? 0 : RationalG1(normals.A(w));
   } else if constexpr (row.what == NormalQuantity::kG1) {
     out[0] = G1(normals, Load(in), Load(in + 3));
+  } else if constexpr (row.what == NormalQuantity::kDVisibleVCavity) {
+    out[0] = VCavityDensity(normals, Load(in), Load(in + 3));
+  } else if constexpr (row.what == NormalQuantity::kSampleVCavity) {
+    const Vec3 wm = SampleVCavityNormal(normals, Load(in), in[3], in[4], in[5]);
+    Store(wm, out);
+    out[3] = VCavityDensity(normals, Load(in), wm);
   } else if constexpr (row.what == NormalQuantity::kDVisible) {
     const Vec3 w = Load(in), wm = Load(in + 3);
     out[0] = Dot(w, wm) * Cosine(normals, w) <= 0 ? 0 : VisibleDensity(normals, w, wm);
@@ -642,7 +679,8 @@ void OfNormals(const float* in, float* out, Transport) {
   } else if constexpr (row.what == NormalQuantity::kSampleReflection ||
                        row.what == NormalQuantity::kSampleReflectionBounded) {
     constexpr bool bounded = row.what == NormalQuantity::kSampleReflectionBounded;
-    StoreSample(SampleVisibleReflection<bounded, false>(normals, MirrorFresnel(in), Load(in), in[3], in[4]),
+    StoreSample(SampleVisibleReflection<bounded, DielectricQuantity::kCorrelated>(normals, MirrorFresnel(in),
+                                                                                  Load(in), in[3], in[4]),
                 out);
   } else if constexpr (row.what == NormalQuantity::kPdfReflection ||
                        row.what == NormalQuantity::kPdfReflectionBounded) {
@@ -682,7 +720,7 @@ void Dielectric(const float* in, float* out, Transport transport) {
   constexpr bool one_lobe_sampled = row.what == DielectricQuantity::kSample && !row.HasBothLobes();
   const float* const parameters = in + (one_lobe_sampled ? 5 : 6);
   const float eta = parameters[Distribution::kParameters];
-  const RoughDielectric<Distribution, row.separable, DielectricFresnel, row.visible> bsdf{
+  const RoughDielectric<Distribution, row.joint, DielectricFresnel, row.visible> bsdf{
       Distribution::Make(parameters), eta, transport, {eta}};
   if constexpr (row.what == DielectricQuantity::kSample) {
     StoreSample(bsdf.SampleDirection(Load(in), in[3], in[4], one_lobe_sampled ? 0 : in[5], lobes), out);
@@ -700,18 +738,27 @@ void OpaqueSurface(const float* in, float* out, Transport transport) {
   constexpr ReflectorKernelPlace place = PlaceOfReflectorKernel(kKernel);
   constexpr DielectricQuantity row = kReflectorQuantities[place.quantity];
   using Fresnel = FresnelOf<place.reflector>;
-  const float* const parameters = in + (row.what == DielectricQuantity::kSample ? 5 : 6);
-  const RoughDielectric<Distribution, row.separable, Fresnel> surface{
+  const float* const parameters = in + Split(kKernels[kKernel].inputs).per_lane;
+  const RoughDielectric<Distribution, row.joint, Fresnel> surface{
       Distribution::Make(parameters), 1, transport, Fresnel(parameters + Distribution::kParameters)};
-  if constexpr (row.what == DielectricQuantity::kSample && row.visible) {
-    StoreSample(SampleVisibleReflection<false, row.separable>(surface.distribution, surface.fresnel, Load(in),
-                                                              in[3], in[4]),
+  constexpr bool v_cavity = row.joint == DielectricQuantity::kVCavity;
+  if constexpr (row.what == DielectricQuantity::kSample && v_cavity) {
+    StoreSample(SampleVCavityReflection(surface.distribution, surface.fresnel, Load(in), in[3], in[4], in[5]),
+                out);
+  } else if constexpr (row.what == DielectricQuantity::kSample && row.visible) {
+    StoreSample(SampleVisibleReflection<false, row.joint>(surface.distribution, surface.fresnel, Load(in),
+                                                          in[3], in[4]),
                 out);
   } else if constexpr (row.what == DielectricQuantity::kSample) {
     StoreSample(surface.SampleDirection(Load(in), in[3], in[4], 0, kReflection), out);
   } else {
     out[0] = surface.Eval(Load(in), Load(in + 3), kReflection);
-    if constexpr (row.what == DielectricQuantity::kEvalPdf && row.visible) {
+    if constexpr (row.what == DielectricQuantity::kEvalPdf && v_cavity) {
+      const Vec3 wi = Load(in), wo = Load(in + 3);
+      const bool reflects = CosTheta(wi) != 0 && CosTheta(wo) != 0 && SameHemisphere(wi, wo);
+      const Vec3 w = wi.z < 0 ? -wi : wi, wm = Normalize(wi.z < 0 ? -(wi + wo) : wi + wo);
+      out[1] = reflects ? VCavityDensity(surface.distribution, w, wm) / (4 * AbsDot(w, wm)) : 0;
+    } else if constexpr (row.what == DielectricQuantity::kEvalPdf && row.visible) {
       out[1] = PdfVisibleReflection<false>(surface.distribution, Load(in), Load(in + 3));
     } else if constexpr (row.what == DielectricQuantity::kEvalPdf) {
       out[1] = surface.Pdf(Load(in), Load(in + 3), kReflection);
@@ -744,6 +791,19 @@ void ConductorReflectance(const float* in, float* out, Transport) {
   out[0] = FrComplex(in[0], {in[1], in[2]});
 }
 void SchlickReflectance(const float* in, float* out, Transport) { out[0] = FrSchlick(in[0], in[1]); }
+
+void FromMoments(const float* in, float* out, Transport) {
+  const float variance_x = in[2] - Sqr(in[0]), variance_y = in[3] - Sqr(in[1]);
+  out[0] = std::sqrt(2 * std::max(variance_x, 5e-11f));
+  out[1] = std::sqrt(2 * std::max(variance_y, 5e-11f));
+  const float r = (in[4] - in[0] * in[1]) / (out[0] * out[1] / 2);
+  out[2] = std::min(std::max(r, -0.9999f), 0.9999f);
+}
+void ToMoments(const float* in, float* out, Transport) {
+  out[0] = Sqr(in[3]) + Sqr(in[0]) / 2;
+  out[1] = Sqr(in[4]) + Sqr(in[1]) / 2;
+  out[2] = in[3] * in[4] + in[2] * in[0] * in[1] / 2;
+}
 
 // Whether w sees wm from its side of the surface.
 bool Sees(const Vec3& w, const Vec3& wm) { return Dot(w, wm) * CosTheta(w) > 0; }
@@ -883,6 +943,8 @@ constexpr std::array kEntries = {
     Make<KernelIndex("reflect"), MirrorDirection>(),
     Make<KernelIndex("refract"), RefractedDirection>(),
 
+    Make<KernelIndex("roughness.from_moments"), FromMoments>(),
+    Make<KernelIndex("roughness.to_moments"), ToMoments>(),
     Make<KernelIndex("masking.v_cavity"), MaskingVCavity>(),
     Make<KernelIndex("masking.implicit"), MaskingImplicit>(),
     Make<KernelIndex("masking.schlick_smith"), MaskingSchlickSmith>(),

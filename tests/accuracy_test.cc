@@ -194,7 +194,9 @@ class ChannelCheck {
       : masking_(masking),
         kernel_(ReflectorKernel(
             {kNormals, kReflector,
-             FindReflectorQuantity(DielectricQuantity::kEval, masking == JointMasking::kSeparable)})) {}
+             FindReflectorQuantity(DielectricQuantity::kEval, masking == JointMasking::kSeparable
+                                                                  ? DielectricQuantity::kSeparable
+                                                                  : DielectricQuantity::kCorrelated)})) {}
 
   // Channel c has the facets of the lane c % kShifts further on.
   void Run() {

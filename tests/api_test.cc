@@ -74,7 +74,9 @@ template <class T, Normals kNormals, std::size_t kQuantity>
 void RunDielectric(Arguments<T>& a) {
   using Calls = RoughDielectricCalls<kNormals>;
   constexpr DielectricQuantity row = kDielectricQuantities[kQuantity];
-  constexpr JointMasking masking = row.separable ? JointMasking::kSeparable : JointMasking::kHeightCorrelated;
+  constexpr JointMasking masking = row.joint == DielectricQuantity::kSeparable
+                                       ? JointMasking::kSeparable
+                                       : JointMasking::kHeightCorrelated;
   constexpr Sampling sampling = row.visible ? Sampling::kVisibleNormals : Sampling::kNormals;
   constexpr bool both = row.HasBothLobes(), reflects = row.reflects;
   const Directions<T> wi = a.Direction(0);
@@ -124,12 +126,21 @@ void RunReflector(Arguments<T>& a) {
   constexpr ReflectorKernelPlace place = PlaceOfReflectorKernel(kKernel);
   using Calls = RoughReflectorCalls<place.normals, place.reflector>;
   constexpr DielectricQuantity row = kReflectorQuantities[place.quantity];
-  constexpr JointMasking masking = row.separable ? JointMasking::kSeparable : JointMasking::kHeightCorrelated;
+  constexpr JointMasking masking = row.joint == DielectricQuantity::kSeparable
+                                       ? JointMasking::kSeparable
+                                       : JointMasking::kHeightCorrelated;
   constexpr Sampling sampling = row.visible ? Sampling::kVisibleNormals : Sampling::kNormals;
   constexpr bool samples = row.what == DielectricQuantity::kSample;
-  const auto surface = a.template Opaque<place.normals, place.reflector>(samples ? 5 : 6);
+  constexpr bool v_cavity = row.joint == DielectricQuantity::kVCavity;
+  const auto surface = a.template Opaque<place.normals, place.reflector>(samples && !v_cavity ? 5 : 6);
   const Directions<T> wi = a.Direction(0);
-  if constexpr (samples) {
+  if constexpr (v_cavity && samples) {
+    Calls::SampleVCavity(a.n, wi, a.Lanes(3), a.Lanes(4), a.Lanes(5), surface, a.Samples(), a.accuracy);
+  } else if constexpr (v_cavity && row.what == DielectricQuantity::kEvalPdf) {
+    Calls::EvalPdfVCavity(a.n, wi, a.Direction(3), surface, a.Out(0), a.Out(1), a.accuracy);
+  } else if constexpr (v_cavity) {
+    Calls::EvalVCavity(a.n, wi, a.Direction(3), surface, a.Out(0), a.accuracy);
+  } else if constexpr (samples) {
     Calls::Sample(a.n, wi, a.Lanes(3), a.Lanes(4), surface, a.Samples(), a.accuracy, masking, sampling);
   } else if constexpr (row.what == DielectricQuantity::kEvalPdf) {
     Calls::EvalPdf(a.n, wi, a.Direction(3), surface, a.Out(0), a.Out(1), a.accuracy, masking, sampling);
@@ -162,6 +173,11 @@ void CallNormals(Arguments<T>& a, const P&... p) {
     Calls::G1(a.n, a.Direction(0), a.Direction(3), p..., a.Out(0), a.accuracy);
   } else if constexpr (row.what == NormalQuantity::kDVisible) {
     Calls::DVisible(a.n, a.Direction(0), a.Direction(3), p..., a.Out(0), a.accuracy);
+  } else if constexpr (row.what == NormalQuantity::kDVisibleVCavity) {
+    Calls::DVisibleVCavity(a.n, a.Direction(0), a.Direction(3), p..., a.Out(0), a.accuracy);
+  } else if constexpr (row.what == NormalQuantity::kSampleVCavity) {
+    Calls::SampleVisibleNormalVCavity(a.n, a.Direction(0), a.Lanes(3), a.Lanes(4), a.Lanes(5), p...,
+                                      a.OutDirection(0), a.Out(3), a.accuracy);
   } else if constexpr (row.what == NormalQuantity::kSampleNormal) {
     Calls::SampleNormal(a.n, a.Lanes(0), a.Lanes(1), p..., a.OutDirection(0), a.Out(3), a.accuracy);
   } else if constexpr (row.what == NormalQuantity::kSampleVisible) {
@@ -231,6 +247,9 @@ const std::vector<Row<T>>& Rows() {
       {"half_vector.refraction_jacobian_cos", [](A& a) { half_vector::RefractionJacobian(a.n, a.Lanes(0), a.Lanes(1), a.Value(2), a.Out(0), a.accuracy); }},
       {"reflect", [](A& a) { Reflect(a.n, a.Direction(0), a.Direction(3), a.OutDirection(0), a.accuracy); }},
       {"refract", [](A& a) { Refract(a.n, a.Direction(0), a.Direction(3), a.Value(6), a.OutDirection(0), a.accuracy); }},
+
+      {"roughness.from_moments", [](A& a) { roughness::FromMoments(a.n, a.Lanes(0), a.Lanes(1), a.Lanes(2), a.Lanes(3), a.Lanes(4), a.Out(0), a.Out(1), a.Out(2), a.accuracy); }},
+      {"roughness.to_moments", [](A& a) { roughness::ToMoments(a.n, a.Lanes(0), a.Lanes(1), a.Lanes(2), a.Lanes(3), a.Lanes(4), a.Out(0), a.Out(1), a.Out(2), a.accuracy); }},
 
       {"masking.v_cavity", [](A& a) { masking::VCavity(a.n, a.Direction(0), a.Direction(3), a.Out(0), a.accuracy); }},
       {"masking.implicit", [](A& a) { masking::Implicit(a.n, a.Direction(0), a.Direction(3), a.Out(0), a.accuracy); }},

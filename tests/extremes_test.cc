@@ -41,6 +41,8 @@ Range RangeOf(std::string_view output, bool fast) {
   if (output == "G1" || output == "G2" || output == "F" || output == "T") return {0, 1 + slack};
   if (output == "phi") return {0, 3.14159274101257324 + slack};
   if (output == "lobe") return {0, 2};
+  if (output == "r_xy") return {-1, 1};
+  if (output.substr(0, 7) == "moment_") return {-kLargest, kLargest};
   if (output.front() == 'm' || output.front() == 'h') return {-1 - 0x1p-22 - slack, 1 + 0x1p-22 + slack};
   if (output == "wox" || output == "woy" || output == "woz") return {-1.01, 1.01};  // of wi not quite unit
   if (output == "sin" || output == "cos") return {-1 - 0x1p-23 - slack, 1 + 0x1p-23 + slack};
@@ -418,16 +420,17 @@ TEST(Extremes, SampleVsEval) {
   for (const std::string_view model : kModels) {
     for (const DielectricQuantity& quantity : kDielectricQuantities) {
       if (quantity.what != DielectricQuantity::kSample) continue;
-      const auto same = [&](DielectricQuantity::What what, bool separable, bool visible) {
+      const auto same = [&](DielectricQuantity::What what, DielectricQuantity::Joint joint, bool visible) {
         return KernelIndex(
             Id(model, kDielectricQuantities[FindDielectricQuantity(what, quantity.reflects,
-                                                                   quantity.transmits, separable, visible)]
+                                                                   quantity.transmits, joint, visible)]
                           .name));
       };
-      const std::size_t sampler = same(DielectricQuantity::kSample, quantity.separable, quantity.visible);
+      const std::size_t sampler = same(DielectricQuantity::kSample, quantity.joint, quantity.visible);
       if (sampler == kNumKernels) continue;  // Phong has no visible normals
-      const std::size_t eval = same(DielectricQuantity::kEval, quantity.separable, false);
-      const std::size_t pdf = same(DielectricQuantity::kPdf, false, quantity.visible);
+      const std::size_t eval = same(DielectricQuantity::kEval, quantity.joint, false);
+      const std::size_t pdf =
+          same(DielectricQuantity::kPdf, DielectricQuantity::kCorrelated, quantity.visible);
       const std::size_t parameters = Split(kKernels[sampler].inputs).per_lane;
       const std::size_t num_inputs = Split(kKernels[sampler].inputs).count;
       for (const Transport transport : {Transport::kRadiance, Transport::kImportance}) {

@@ -35,6 +35,9 @@ enum Field : int {
   kRxy,
   kMeanX,
   kMeanY,
+  kMomentXx,
+  kMomentYy,
+  kMomentXy,
   kExponent,
   kEta,
   kN,
@@ -50,9 +53,10 @@ enum Field : int {
   kNumFields
 };
 constexpr std::string_view kFieldNames[] = {
-    "mx",  "my",    "mz",    "vx",       "vy",       "vz",      "wix",  "wiy",    "wiz",    "wox",      "woy",
-    "woz", "cos_i", "cos_o", "alpha",    "alpha_x",  "alpha_y", "r_xy", "mean_x", "mean_y", "exponent", "eta",
-    "n",   "kappa", "f0",    "Lambda_i", "Lambda_o", "u1",      "u2",   "u3",     "x",      "a"};
+    "mx",     "my",       "mz",        "vx",        "vy",        "vz",       "wix",     "wiy",     "wiz",
+    "wox",    "woy",      "woz",       "cos_i",     "cos_o",     "alpha",    "alpha_x", "alpha_y", "r_xy",
+    "mean_x", "mean_y",   "moment_xx", "moment_yy", "moment_xy", "exponent", "eta",     "n",       "kappa",
+    "f0",     "Lambda_i", "Lambda_o",  "u1",        "u2",        "u3",       "x",       "a"};
 static_assert(std::size(kFieldNames) == kNumFields && std::size(kInputs) == kNumFields,
               "one field per input");
 
@@ -80,6 +84,7 @@ struct Shape {
   bool samples = false;                    // a normal from u1, u2
   bool pairs = false;                      // wi and wo
   bool visible = false;                    // normals as seen from v
+  bool v_cavity = false;                   // by V-cavities
   std::array<bool, kNumFields> has{};
 };
 
@@ -105,6 +110,7 @@ Shape MakeShape(std::size_t kernel) {
   shape.pairs = shape.has[kWox];
   shape.samples = shape.has[kWix] && shape.has[kU1];
   shape.visible = Contains(id, "visible");
+  shape.v_cavity = Contains(id, "v_cavity");
   shape.reflects = !Contains(id, "transmission") && !Contains(id, "half_vector.refraction");
   shape.transmits = !Contains(id, "reflection") && shape.has[kEta];
   return shape;
@@ -328,6 +334,7 @@ class SceneMaker {
                                                  : random_.LogUniform(edge_of_mean < 0.5 ? 1e-6 : 0.01, 16)),
           values_);
     }
+    DrawMoments();
     double exponent = random_.LogUniform(1e-3, 2e10);
     const double v = random_.Uniform();
     if (v < 0.3 && x < 1) exponent = 2 / (x * x) - 2;
@@ -335,6 +342,19 @@ class SceneMaker {
     if (v >= 0.4 && v < 0.43) exponent = 0;
     if (v >= 0.43 && v < 0.46) exponent = 2e10;
     scene_[kExponent] = Fit(kExponent, exponent, values_);
+  }
+
+  // Those of the roughness, now and then within floats of what its variances cancel to, or of none.
+  void DrawMoments() {
+    const double x = scene_[kAlphaX], y = scene_[kAlphaY], mean_x = scene_[kMeanX], mean_y = scene_[kMeanY];
+    const bool none = random_.Chance(0.2);
+    const auto moment = [&](Field field, double of_means, double variance) {
+      const double sum = of_means + (none ? 0 : variance);
+      scene_[field] = Fit(field, random_.Chance(0.2) ? Floats(sum, random_.Index(9) - 4) : sum, values_);
+    };
+    moment(kMomentXx, mean_x * mean_x, x * x / 2);
+    moment(kMomentYy, mean_y * mean_y, y * y / 2);
+    moment(kMomentXy, mean_x * mean_y, scene_[kRxy] * x * y / 2);
   }
 
   double Eta() {
@@ -566,6 +586,7 @@ constexpr double kGridRadii[] = {0, 1e-3, 0.1, 0.5, 1, 2, 4, 9, 30};
 constexpr double kGridAlphas[] = {1e-5, 1e-4, 1e-3, 0.01, 0.05, 0.1, 0.3, 0.5, 0.8, 1, 2, 10, 100};
 constexpr double kGridCorrelations[] = {0, 0.5, -0.9, 0.9999, -0.9999, 1e-4};
 constexpr double kGridMeans[] = {0, 0.1, -1, 3, -16};
+constexpr double kGridMoments[] = {0, 1e-12, 5e-11, 1e-4, 0.02, 1, 256, 5e3};
 constexpr double kGridExponents[] = {0, 0.5, 1, 2, 10, 100, 1e3, 1e4, 1e6, 1e8, 1e10, 2e10};
 constexpr double kGridEtas[] = {1,    1.0003, 1.33, 1.5,      1.51,     2.42,     4,     1 / 1.0003, 1 / 1.33,
                                 0.66, 0.41,   0.25, 1 + 1e-7, 1 - 1e-7, 1 + 1e-5, 1.001, 0.999,      1.1};
@@ -641,6 +662,9 @@ Scene GridScene(const Shape& shape, Digits& digits) {
   take(kRxy, kGridCorrelations);
   take(kMeanX, kGridMeans);
   take(kMeanY, kGridMeans);
+  take(kMomentXx, kGridMoments);
+  take(kMomentYy, kGridMoments);
+  take(kMomentXy, kGridMoments);
   take(kExponent, kGridExponents);
   take(kEta, kGridEtas);
   take(kN, kGridIndices);
@@ -1182,8 +1206,13 @@ class ExtremeMaker {
 
   // Views and normals within floats of v.m = 2 mz vz, where the two branches of the V-cavity form meet.
   void Cavity() {
-    if (!shape_.has[kVx] || !shape_.has[kMx] || Has({kAlpha, kAlphaX, kExponent})) return;
+    const bool of_normal = shape_.has[kVx] && shape_.has[kMx];
+    if (!(of_normal && !Has({kAlpha, kAlphaX, kExponent})) &&
+        !(shape_.v_cavity && (of_normal || shape_.pairs))) {
+      return;
+    }
     Scene scene = Base();
+    SetAlpha(scene, 0.5, 0.5);
     for (const double mz : {0.99, 0.8, 0.5, 0.2, 0.01}) {
       for (const double phi : {0.0, 0.6, 1.9, 3.0}) {
         const Vector m = Single(FromCosine(mz, phi));
@@ -1198,6 +1227,8 @@ class ExtremeMaker {
               v.z = Floats(v.z, steps);
               Put(scene, kVx, v);
               Put(scene, kMx, m);
+              Put(scene, kWix, v);
+              Put(scene, kWox, Single(Mirrored(v, side * m)));
               Add("vcavity-kink", "v.m = 2 mz vz, within floats", scene);
             }
           }
@@ -1228,13 +1259,6 @@ class ExtremeMaker {
   std::vector<ExtremeCase> cases_;
   std::set<std::pair<std::string_view, Point>> seen_;
 };
-
-// Of a kernel's name, so that its points stay the same whatever else the list holds: FNV-1a.
-std::uint64_t SeedOf(std::string_view id) {
-  std::uint64_t hash = 0xCBF29CE484222325u;
-  for (const char c : id) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3u;
-  return hash;
-}
 
 }  // namespace
 

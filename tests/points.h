@@ -51,6 +51,13 @@ class Random {
 // Every value an input can take, by its place in kInputs; what a point of any kernel is cut from.
 using Scene = std::array<double, sizeof(kInputs) / sizeof(kInputs[0])>;
 
+// A seed of a kernel's name, so that its points stay the same whatever else the list holds: FNV-1a.
+constexpr std::uint64_t SeedOf(std::string_view id) {
+  std::uint64_t hash = 0xCBF29CE484222325u;
+  for (const char c : id) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3u;
+  return hash;
+}
+
 // Random points of one kernel, where it is hard: lobes, their edges and tails, grazing, mirrored, opposite
 // and refracted pairs, critical and Brewster's angles, indices near 1, edges of the random numbers. Values
 // are within the domains of the kernel list, directions are unit vectors to a few roundings. A point depends

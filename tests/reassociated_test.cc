@@ -170,10 +170,10 @@ constexpr std::size_t kEval = Quantity("eval"), kEvalReflection = Quantity("eval
                       kSampleTransmission = Quantity("sample_transmission");
 
 template <class Dist, Normals kNormals, Reflector kReflector, DielectricQuantity::What kWhat,
-          bool kVisible = false>
+          bool kVisible = false, DielectricQuantity::Joint kJoint = DielectricQuantity::kCorrelated>
 using OpaqueCase =
     RoughReflectorKernel<Dist, ReflectorKernel(
-                                   {kNormals, kReflector, FindReflectorQuantity(kWhat, false, kVisible)})>;
+                                   {kNormals, kReflector, FindReflectorQuantity(kWhat, kJoint, kVisible)})>;
 
 // K over whole vectors; n is a multiple of every vector's lanes.
 template <class K, size_t... kIn>
@@ -210,6 +210,8 @@ Cases CasesOnTarget() {
       NormalCase<Ggx, ggx, NormalQuantity::kSampleReflection>,
       NormalCase<Ggx, ggx, NormalQuantity::kSampleReflectionBounded>,
       NormalCase<Ggx, ggx, NormalQuantity::kPdfReflectionBounded>,
+      NormalCase<Ggx, ggx, NormalQuantity::kDVisibleVCavity>,
+      NormalCase<Ggx, ggx, NormalQuantity::kSampleVCavity>,
       NormalCase<Beckmann, beckmann, NormalQuantity::kD>,
       NormalCase<Beckmann, beckmann, NormalQuantity::kLambda>,
       NormalCase<Beckmann, beckmann, NormalQuantity::kG1>,
@@ -238,6 +240,10 @@ Cases CasesOnTarget() {
       OpaqueCase<Ggx, ggx, Reflector::kConductor, DielectricQuantity::kSample>,
       OpaqueCase<Ggx, ggx, Reflector::kConductor, DielectricQuantity::kEvalPdf, true>,
       OpaqueCase<Ggx, ggx, Reflector::kConductor, DielectricQuantity::kSample, true>,
+      OpaqueCase<Ggx, ggx, Reflector::kConductor, DielectricQuantity::kEvalPdf, false,
+                 DielectricQuantity::kVCavity>,
+      OpaqueCase<Ggx, ggx, Reflector::kConductor, DielectricQuantity::kSample, false,
+                 DielectricQuantity::kVCavity>,
       OpaqueCase<Beckmann, beckmann, Reflector::kConductor, DielectricQuantity::kEval>,
       OpaqueCase<Phong, phong, Reflector::kSchlick, DielectricQuantity::kEval>>();
 }

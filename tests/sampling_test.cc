@@ -84,6 +84,26 @@ std::vector<VisibleCase> VisibleCases() {
   return cases;
 }
 
+// The normals that V-cavities show, of every distribution.
+std::vector<VisibleCase> VCavityCases() {
+  std::vector<Distribution> distributions;
+  for (const auto& make : {Ggx, Beckmann}) {
+    for (const float alpha : {0.01f, 0.3f, 1.0f, 2.0f}) distributions.push_back(make(alpha, alpha));
+    distributions.push_back(make(0.05f, 1));
+  }
+  for (const float exponent : {798.0f, 6.0f, 0.0f}) distributions.push_back(Phong(exponent));
+  // Not beyond: next to v.m = 0 the density rises from 0 within cos(theta_v), which cells do not resolve.
+  constexpr double kViews[][2] = {{0, 1}, {30, 1}, {60, 1}, {85, 1}, {70, -1}};
+  std::vector<VisibleCase> cases;
+  for (const Distribution& distribution : distributions) {
+    for (const auto& view : kViews) {
+      const Accuracy accuracy = cases.size() % 4 == 3 ? Accuracy::kFast : Accuracy::kStandard;
+      cases.push_back({distribution, view[0], view[1], accuracy, false});
+    }
+  }
+  return cases;
+}
+
 // Eto and Tokuyoshi 2023: the cap that bounded sampling leaves, over the whole one.
 double CapShare(const VisibleCase& c) {
   const Direction v = c.side * c.v();
@@ -156,7 +176,7 @@ constexpr DielectricSampler kDielectricSamplers[] = {
 
 // Sidak's correction over all chi-square tests of this file.
 double ChiSquareSignificance() {
-  std::size_t count = NormalCases().size() + 2 * VisibleCases().size();
+  std::size_t count = NormalCases().size() + 2 * VisibleCases().size() + VCavityCases().size();
   const std::size_t cases = DielectricCases().size();
   for (const DielectricSampler& sampler : kDielectricSamplers) {
     count += (cases + sampler.every - 1) / sampler.every;
@@ -507,6 +527,50 @@ TEST(VisibleNormalSampler, DensityIsThatOfVisibleNormals) {
   }
 }
 
+// Heitz 2014, Eqs. 16 and 49: a facet of a V-cavity by its share of what is seen.
+TEST(VCavityNormalSampler, DensityIsThatOfTheNormalsShown) {
+  constexpr std::size_t kSamples = 100000;
+  ChiSquareTally tally("normals that V-cavities show against D_visible_v_cavity");
+  Tally densities("pdf = D_visible_v_cavity");
+  std::uint64_t seed = 500;
+  for (const VisibleCase& c : VCavityCases()) {
+    std::mt19937_64 random(seed++);
+    const Direction v = c.v();
+    const bool unit = c.distribution.family == "beckmann";
+    const auto visible = [&](const DirectionColumns<double>& m) {
+      return RunOne<double>(c.distribution.Id("D_visible_v_cavity"), m.size(), {}, v, m, c.distribution);
+    };
+    const auto sample = [&](std::size_t n) {
+      const Column<float> u1 = UniformNumbers<float>(n, random), u2 = UniformNumbers<float>(n, random),
+                          u3 = UniformNumbers<float>(n, random);
+      const std::vector<Column<float>> out =
+          RunAll<float>(c.distribution.Id("sample_visible_normal_v_cavity"), n, {c.accuracy}, v, u1, u2, u3,
+                        c.distribution);
+      const DirectionColumns<float> m{out[0], out[1], out[2]};
+      return unit ? ToUnitRoughness(c.distribution, m) : m;
+    };
+    const DirectionColumns<float> pilot = sample(20000), samples = sample(kSamples);
+    tally.Add(TestDensity(pilot, samples,
+                          [&](const DirectionColumns<double>& nodes) {
+                            return unit ? DensityAtUnitRoughness(c.distribution, nodes, visible)
+                                        : visible(nodes);
+                          }),
+              kSamples, c.Text());
+    // What the sampler says of its own normals, in double lanes.
+    constexpr std::size_t kFew = 500;
+    const Column<double> u1 = UniformNumbers<double>(kFew, random), u2 = UniformNumbers<double>(kFew, random),
+                         u3 = UniformNumbers<double>(kFew, random);
+    const std::vector<Column<double>> out = RunAll<double>(
+        c.distribution.Id("sample_visible_normal_v_cavity"), kFew, {}, v, u1, u2, u3, c.distribution);
+    const DirectionColumns<double> m{out[0], out[1], out[2]};
+    const Column<double> density = visible(m);
+    for (std::size_t i = 0; i < kFew; ++i) {
+      const double tolerance = 1e-14 * (10 + c.distribution.LogSlope(m[i]) + 1 / std::abs(Dot(v, m[i])));
+      densities.AddRelative(out[3][i], density[i], tolerance, [&] { return c.Text() + " m " + Text(m[i]); });
+    }
+  }
+}
+
 // Bounded caps lose no more reflections below the surface than whole ones, and fewer where the bound is
 // active.
 TEST(VisibleNormalSampler, BoundedCapsLoseFewerReflections) {
@@ -783,8 +847,27 @@ TEST(RoughDielectricSampler, WeightsAreValueOverDensityInFloatLanes) {
   ExpectWeightsAreValueOverDensity<float>(Accuracy::kFast, "float fast");
 }
 
+// What a sampler of reflections gives of normals and their densities; no weights.
+std::vector<Column<double>> Reflected(const DielectricCase& c, const std::vector<Column<double>>& normals) {
+  const std::size_t n = normals[0].size();
+  std::vector<Column<double>> out(6, Column<double>(n, 0));
+  for (std::size_t i = 0; i < n; ++i) {
+    const Direction m = c.side * Direction{normals[0][i], normals[1][i], normals[2][i]};
+    const double cos_i = Dot(c.wi(), m);
+    const Direction wo = 2 * cos_i * m - c.wi();
+    if (!(wo.z * c.side > 0)) continue;
+    out[0][i] = wo.x;
+    out[1][i] = wo.y;
+    out[2][i] = wo.z;
+    out[4][i] = normals[3][i] / (4 * cos_i);
+    out[5][i] = 1;
+  }
+  return out;
+}
+
 // Samples of opaque surfaces: directions and densities of the dielectric's reflection, or of the mirror about
-// visible normals, whose chi-squares are above, and weights that are value over density.
+// visible normals, or of V-cavities' normals, whose chi-squares are above, and weights that are value over
+// density.
 TEST(OpaqueSurfaceSampler, DirectionsAreThoseOfNormalsAndWeightsAreValueOverDensity) {
   struct Opaque {
     std::string_view model;
@@ -802,20 +885,25 @@ TEST(OpaqueSurfaceSampler, DirectionsAreThoseOfNormalsAndWeightsAreValueOverDens
   for (const DielectricCase& c : DielectricCases()) {
     if (c.eta != 1.5f) continue;
     for (const Opaque& surface : surfaces) {
-      for (const std::string suffix : {"", "_separable", "_visible", "_visible_separable"}) {
-        const bool visible = suffix.find("visible") != std::string::npos;
+      for (const std::string suffix : {"", "_separable", "_visible", "_visible_separable", "_v_cavity"}) {
+        const bool visible = suffix.find("visible") != std::string::npos, v_cavity = suffix == "_v_cavity";
         if (visible && c.distribution.family == "phong") continue;
         std::mt19937_64 random(seed++);
         const Column<double> u1 = UniformNumbers<double>(kSamples, random),
-                             u2 = UniformNumbers<double>(kSamples, random);
+                             u2 = UniformNumbers<double>(kSamples, random),
+                             u3 = UniformNumbers<double>(kSamples, random);
         const auto sample = [&](const std::string& id, const Values& parameters) {
+          if (v_cavity) {
+            return RunAll<double>(id, kSamples, {}, c.wi(), u1, u2, u3, c.distribution, parameters);
+          }
           return RunAll<double>(id, kSamples, {}, c.wi(), u1, u2, c.distribution, parameters);
         };
         const std::vector<Column<double>> out =
             sample(c.distribution.Model(surface.model, "sample" + suffix), surface.parameters);
         const std::vector<Column<double>> reflection =
-            visible ? sample(c.distribution.Id("sample_visible_reflection"), {{}})
-                    : sample(c.distribution.Dielectric("sample_reflection" + suffix), {{c.eta}});
+            visible    ? sample(c.distribution.Id("sample_visible_reflection"), {{}})
+            : v_cavity ? Reflected(c, sample(c.distribution.Id("sample_visible_normal_v_cavity"), {{}}))
+                       : sample(c.distribution.Dielectric("sample_reflection" + suffix), {{c.eta}});
         const DirectionColumns<double> wo{out[0], out[1], out[2]};
         const std::vector<Column<double>> value =
             RunAll<double>(c.distribution.Model(surface.model, "eval_pdf" + suffix), kSamples, {}, c.wi(), wo,
@@ -824,10 +912,18 @@ TEST(OpaqueSurfaceSampler, DirectionsAreThoseOfNormalsAndWeightsAreValueOverDens
           const auto where = [&] {
             return std::string(surface.model) + suffix + ' ' + c.Text() + " wo " + Text(wo[i]);
           };
+          // Of V-cavities the reflection is this test's own, and the share of a facet that is hardly seen
+          // cancels.
+          const double seen = Dot(c.wi(), Normalized(c.wi() + wo[i]));
           for (const std::size_t k : {0, 1, 2, 4, 5}) {
-            directions.AddRelative(out[k][i], reflection[k][i], 1e-13, where);
+            if (v_cavity && k < 3) {
+              directions.Add(std::abs(out[k][i] - reflection[k][i]), 1e-14, where);
+            } else {
+              const double cancels = v_cavity && k == 4 && out[5][i] != 0 ? 1 + 1 / seen : 1;
+              directions.AddRelative(out[k][i], reflection[k][i], 1e-13 * cancels, where);
+            }
           }
-          if (visible) at_most_one.Add(std::max(0.0, out[3][i] - 1), 0, where);
+          if (visible || v_cavity) at_most_one.Add(std::max(0.0, out[3][i] - 1), 0, where);
           if (out[5][i] == 0) continue;
           ++successes;
           const double cos_i = Dot(c.wi(), Normalized(c.wi() + wo[i]));

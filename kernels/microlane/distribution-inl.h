@@ -24,7 +24,8 @@ namespace microlane {
 namespace HWY_NAMESPACE {
 namespace {
 
-enum class JointMasking { kSeparable, kHeightCorrelated };  // Walter 2007 Eq. 23; Heitz 2014 Eq. 99
+// Walter 2007 Eq. 23; Heitz 2014 Eq. 99; of V-cavities min(1, 2 hz |i.n|/i.h, 2 hz |o.n|/o.h).
+enum class JointMasking { kSeparable, kHeightCorrelated, kVCavity };
 
 template <class Dist>
 struct LogDensityOp {
@@ -52,10 +53,12 @@ HWY_INLINE void CarefulLogDensity(D d, Vec<D>& high, Vec<D>& low, Vec<D> r, Vec<
 #endif
 }
 
-// factor pi D(m) (Walter 2007 Eqs. 25, 33; Heitz 2014 Eqs. 82, 85) of a normal as given, not normalised.
+// factor pi D(m) (Walter 2007 Eqs. 25, 30, 33; Heitz 2014 Eqs. 82, 85) of a normal as given, not normalised.
 template <class Dist, Accuracy A, class D, class... P>
 HWY_INLINE Vec<D> TimesPiNormalDensity(D d, Vec<D> factor, Vec<D> mx, Vec<D> my, Vec<D> mz, P... p) {
-  if constexpr (kShears<P...>) {
+  if constexpr (Dist::kDensityOfCosine) {
+    return Dist::template TimesPiNormalDensity<A>(d, factor, mz, p...);
+  } else if constexpr (kShears<P...>) {
     // A Gaussian of the slopes, or a power of 1 + tan^2.
     Vec<D> q, unused;
     InDouble2<ShearedDensityOp<!Dist::kHasExponent>>(d, q, unused, mx, my, mz, p...);
@@ -213,6 +216,20 @@ struct ShearedVisibilityOp {
   }
 };
 
+// 2^-40 visibility pi D(m); 0 where it is not positive.
+template <class Dist, Accuracy A, class D, class... P>
+HWY_INLINE Vec<D> TimesVisibility(D d, Vec<D> visibility, Vec<D> mx, Vec<D> my, Vec<D> mz, P... p) {
+  const auto hidden = hn::Le(visibility, hn::Zero(d));
+  const Vec<D> scale = Const(d, 0x1p-40);
+  // Before the exponential, which may leave the density subnormal where the product is not.
+  if constexpr (Dist::kHasExponent) {
+    return ZeroIf(hidden, hn::Mul(TimesPiNormalDensity<Dist, A>(d, visibility, mx, my, mz, p...), scale));
+  } else {
+    const Vec<D> pi_density = TimesPiNormalDensity<Dist, A>(d, Const(d, 1), mx, my, mz, p...);
+    return ZeroIf(hidden, hn::Mul(hn::Mul(pi_density, visibility), scale));
+  }
+}
+
 // Density of visible normals (Heitz 2014 Eq. 16).
 template <class Dist, Accuracy A, class D, class... P>
 HWY_INLINE Vec<D> VisibleNormalDensity(D d, Vec<D> vx, Vec<D> vy, Vec<D> vz, Vec<D> mx, Vec<D> my, Vec<D> mz,
@@ -235,15 +252,43 @@ HWY_INLINE Vec<D> VisibleNormalDensity(D d, Vec<D> vx, Vec<D> vy, Vec<D> vz, Vec
   } else {
     InDouble2<InStandard<VisibilityOp<Dist>>>(d, visibility, unused, vx, vy, vz, mx, my, mz, p...);
   }
-  const auto hidden = hn::Le(visibility, hn::Zero(d));
-  const Vec<D> scale = Const(d, 0x1p-40);
-  if constexpr (Dist::kHasExponent) {
-    // Before the exponential, which may leave the density subnormal where the product is not.
-    return ZeroIf(hidden, hn::Mul(TimesPiNormalDensity<Dist, A>(d, visibility, mx, my, mz, p...), scale));
-  } else {
-    const Vec<D> pi_density = TimesPiNormalDensity<Dist, A>(d, Const(d, 1), mx, my, mz, p...);
-    return ZeroIf(hidden, hn::Mul(hn::Mul(pi_density, visibility), scale));
+  return TimesVisibility<Dist, A>(d, visibility, mx, my, mz, p...);
+}
+
+// 2^40 min((v.m)/|v.n|, 2 mz)/pi of V-cavities, as VisibilityOfDotOp has Smith's.
+struct VCavityVisibilityOfDotOp {
+  template <Accuracy A, class D>
+  static HWY_INLINE void Run(D d, Vec<D>& visibility, Vec<D>& unused, Vec<D> dot, Vec<D> vz, Vec<D> mz) {
+    const Vec<D> facing = hn::IfThenElse(hn::Lt(vz, hn::Zero(d)), hn::Neg(dot), dot);
+    // |v.n| may be subnormal; 0 leaves the other.
+    const Vec<D> scale = Const(d, 0x1p40), z = hn::Max(hn::Mul(hn::Abs(vz), scale), Const(d, 1e-36));
+    const Vec<D> seen = hn::Min(Div<A>(d, facing, z), hn::Add(mz, mz));
+    visibility = unused = hn::Mul(seen, Const(d, 0x1p40 / kPi));
   }
+};
+struct VCavityVisibilityOp {
+  template <Accuracy A, class D>
+  static HWY_INLINE void Run(D d, Vec<D>& visibility, Vec<D>& unused, Vec<D> vx, Vec<D> vy, Vec<D> vz,
+                             Vec<D> mx, Vec<D> my, Vec<D> mz) {
+    Vec<D> dot;
+    CarefulDotOp::Run<A>(d, dot, unused, vx, vy, vz, mx, my, mz);
+    VCavityVisibilityOfDotOp::Run<A>(d, visibility, unused, dot, vz, mz);
+  }
+};
+
+// Density of the normals that V-cavities show (Heitz 2014 Eqs. 16, 49).
+template <class Dist, Accuracy A, class D, class... P>
+HWY_INLINE Vec<D> VCavityNormalDensity(D d, Vec<D> vx, Vec<D> vy, Vec<D> vz, Vec<D> mx, Vec<D> my, Vec<D> mz,
+                                       P... p) {
+  Vec<D> visibility, unused;
+  if constexpr (A == Accuracy::kFast) {
+    Vec<D> dot;
+    InDouble2<InStandard<CarefulDotOp>>(d, dot, unused, vx, vy, vz, mx, my, mz);
+    VCavityVisibilityOfDotOp::Run<A>(d, visibility, unused, dot, vz, mz);
+  } else {
+    InDouble2<InStandard<VCavityVisibilityOp>>(d, visibility, unused, vx, vy, vz, mx, my, mz);
+  }
+  return TimesVisibility<Dist, A>(d, visibility, mx, my, mz, p...);
 }
 
 // y + y_tail = (alpha_x cos phi)^2 + (alpha_y sin phi)^2 of the SinCosOfEighth of phi, whose cosine and sine
@@ -415,6 +460,29 @@ HWY_INLINE void SampleNormal(D d, Vec<D>& mx, Vec<D>& my, Vec<D>& mz, Vec<D>& pd
   } else {
     Dist::template SampleNormal<Care::kCareful, A>(d, mx, my, mz, pdf, u1, u2, p...);
   }
+}
+
+// Normals m with pdf = VCavityNormalDensity: one by D cos, or the other facet of its V-cavity (Heitz and
+// d'Eon 2014), each by its share of what v sees. With z = mz |vz| and t = mx vx + my vy those are (z + t)/(2
+// z) and (z - t)/(2 z), cut off at 0 and 1, and the density is D cos (1 + min(1, t/z)) of the normal that is
+// taken.
+template <class Dist, Care kCare, Accuracy A, class D, class... P>
+HWY_INLINE void SampleVCavityNormal(D d, Vec<D>& mx, Vec<D>& my, Vec<D>& mz, Vec<D>& pdf, Vec<D> vx,
+                                    Vec<D> vy, Vec<D> vz, Vec<D> u1, Vec<D> u2, Vec<D> u3, P... p) {
+  Dist::template SampleNormal<kCare, A>(d, mx, my, mz, pdf, u1, u2, p...);
+  // Scaled, as a cosine may be subnormal.
+  const Vec<D> scale = Const(d, 0x1p40), z = hn::Mul(hn::Mul(hn::Abs(vz), scale), mz), two_z = hn::Add(z, z);
+  Vec<D> t = hn::MulAdd(hn::Mul(vx, scale), mx, hn::Mul(hn::Mul(vy, scale), my));
+  t = hn::IfThenElse(hn::Lt(vz, hn::Zero(d)), hn::Neg(t), t);
+  const Vec<D> part = hn::Mul(two_z, u3);
+  const auto other = hn::Lt(part, hn::Sub(z, t));
+  mx = hn::IfThenElse(other, hn::Neg(mx), mx);
+  my = hn::IfThenElse(other, hn::Neg(my), my);
+  t = hn::IfThenElse(other, hn::Neg(t), t);
+  // z + t is at least what u3 has decided by, whatever rounding makes of it.
+  const Vec<D> least = hn::IfThenElse(other, part, hn::Sub(two_z, part));
+  const Vec<D> share = Div<A>(d, hn::Max(hn::Add(z, t), least), z);
+  pdf = hn::Mul(pdf, hn::IfThenElse(hn::Ge(t, z), Const(d, 2), share));
 }
 
 // Normals m with pdf = D_v(m), or of the smaller cap for reflection.

@@ -134,11 +134,19 @@ HWY_INLINE void Refract(D d, Vec<D>& ox, Vec<D>& oy, Vec<D>& oz, Vec<D> ix, Vec<
   const Vec<D> zero = hn::Zero(d);
   const auto total = hn::Lt(g2, zero);
   const Vec<D> g = Sqrt<A>(d, hn::IfThenElse(total, zero, g2));
-  // sign(0) = 1: -0 counts as 0.
-  const Vec<D> cg = hn::IfThenElse(hn::Lt(iz, zero), hn::Add(c, g), hn::Sub(c, g)), r = Reciprocal<A>(d, eta);
-  ox = ZeroIf(total, DivByReciprocal<A>(d, hn::MulSub(cg, mx, ix), eta, r));
-  oy = ZeroIf(total, DivByReciprocal<A>(d, hn::MulSub(cg, my, iy), eta, r));
-  oz = ZeroIf(total, DivByReciprocal<A>(d, hn::MulSub(cg, mz, iz), eta, r));
+  // sign(0) = 1: -0 counts as 0. A small eta magnifies what c - sign g loses to rounding.
+  Vec<D> cg, cg_tail;
+  TwoSum(c, hn::IfThenElse(hn::Lt(iz, zero), g, hn::Neg(g)), cg, cg_tail);
+  Vec<D> x = hn::MulSub(cg, mx, ix), y = hn::MulSub(cg, my, iy), z = hn::MulSub(cg, mz, iz);
+  if constexpr (A != Accuracy::kFast) {
+    x = hn::MulAdd(cg_tail, mx, x);
+    y = hn::MulAdd(cg_tail, my, y);
+    z = hn::MulAdd(cg_tail, mz, z);
+  }
+  const Vec<D> r = Reciprocal<A>(d, eta);
+  ox = ZeroIf(total, DivByReciprocal<A>(d, x, eta, r));
+  oy = ZeroIf(total, DivByReciprocal<A>(d, y, eta, r));
+  oz = ZeroIf(total, DivByReciprocal<A>(d, z, eta, r));
 }
 
 }  // namespace

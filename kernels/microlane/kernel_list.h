@@ -100,6 +100,9 @@ inline constexpr Input kInputs[] = {
     {"r_xy", -0.9999, 0.9999, "correlation of the slopes along x and y"},
     {"mean_x", -16, 16, "mean slope along x"},
     {"mean_y", -16, 16, "mean slope along y"},
+    {"moment_xx", 0, 6e3, "E[x^2] of slopes"},
+    {"moment_yy", 0, 6e3, "E[y^2] of slopes"},
+    {"moment_xy", -6e3, 6e3, "E[x y] of slopes"},
     {"exponent", 0, 2e10, "Phong exponent alpha_p"},
     {"eta", 0.25, 4, "index of the transmitted over the incident side"},
     {"n", 0.05, 10, "real part of the index of a conductor over that of the incident side"},
@@ -137,6 +140,12 @@ inline constexpr Output kOutputs[] = {
     {"pdf", Metric::kUlp, "1/sr"},
     {"weight", Metric::kConditioned, "1"},
     {"lobe", Metric::kExact, "0 none, 1 reflection, 2 transmission"},
+    {"alpha_x", Metric::kUlp, "1"},
+    {"alpha_y", Metric::kUlp, "1"},
+    {"r_xy", Metric::kUlp, "1"},
+    {"moment_xx", Metric::kUlp, "1"},
+    {"moment_yy", Metric::kUlp, "1"},
+    {"moment_xy", Metric::kUlp, "1"},
     {"sin", Metric::kUlp, "1"},
     {"cos", Metric::kUlp, "1"},
     {"y", Metric::kUlp, "1"},
@@ -169,6 +178,11 @@ inline constexpr std::string_view kReflectorSampleNote =
 inline constexpr std::string_view kReflectorSampleVisibleNote =
     "m, wo and pdf of sample_visible_reflection of the distribution. weight = f |cos(theta_o)| / pdf = F G2/G1(wi) <= 1. wiz = 0 counts as "
     "above. Where wo is not on wi's side: lobe 0, and every output 0.";
+inline constexpr std::string_view kVCavityNote =
+    "As eval with the joint masking of V-cavities (Cook and Torrance 1982): G = min(1, 2 hz |wiz|/(wi.h), 2 hz |woz|/(wo.h)).";
+inline constexpr std::string_view kSampleVCavityReflectionNote =
+    "m of sample_visible_normal_v_cavity of the distribution, on wi's side, wo = 2 (wi.m) m - wi. weight = f |cos(theta_o)| / pdf = F G/G1(wi) "
+    "<= 1. Where wo is not on wi's side, and at wiz = 0: lobe 0, and every output 0.";
 inline constexpr std::string_view kSampleNote =
     "wi.m > 0 on wi's side, else none; u3 < F reflects. Outside its hemisphere: lobe 0, and every output 0. "
     "weight = f |cos(theta_o)| / pdf in closed form (Walter 41).";
@@ -221,6 +235,9 @@ inline constexpr Kernel kComponentKernels[] = {
     {"masking.height_correlated_transmission", "Lambda_i Lambda_o", "G2", "Heitz et al. 2016", "B(1 + Lambda_i, 1 + Lambda_o), B Euler's Beta function: masking and shadowing from opposite sides of one height. Sidedness is the caller's.", false, {1, 1, 1, 1, 4000}},
     {"masking.direction_correlated", "Lambda_i Lambda_o wix wiy wox woy", "G2", "Heitz 2014 Eq. 100", kDirectionNote, false, {1, 4, 2200, 8, 6}},
     {"masking.height_direction_correlated", "Lambda_i Lambda_o wix wiy wox woy", "G2", "Heitz 2014 Eq. 101", kDirectionNote, false, {1, 4, 1200, 8, 4}},
+
+    {"roughness.from_moments", "mean_x mean_y moment_xx moment_yy moment_xy", "alpha_x alpha_y r_xy", "Olano and Baker 2010; Dupuy et al. 2013", "alpha^2/2 = E[x^2] - E[x]^2, r = (E[x y] - E[x] E[y])/(alpha_x alpha_y/2) of slopes; alphas within 1e-5 and 100, |r| at most 0.9999.", false, {1, 1, 1, 1, 4}},
+    {"roughness.to_moments", "alpha_x alpha_y r_xy mean_x mean_y", "moment_xx moment_yy moment_xy", "Olano and Baker 2010; Dupuy et al. 2013", "E[x^2] = E[x]^2 + alpha_x^2/2, E[x y] = E[x] E[y] + r alpha_x alpha_y/2 of slopes.", false, {1, 1, 1, 1, 4}},
 };
 
 // Distributions of normals, by their places in kNormalFamilies and kModelFamilies.
@@ -255,6 +272,7 @@ struct NormalQuantity {
     kD, kLambda, kG1, kDVisible, kSampleNormal, kSampleVisible, kSampleVisibleBounded,
     kSampleReflection, kSampleReflectionBounded,  // about a visible normal
     kPdfReflection, kPdfReflectionBounded,        // of those
+    kDVisibleVCavity, kSampleVCavity,             // of normals as V-cavities show them
     kOwn
   };
   std::string_view lanes, outputs;
@@ -273,6 +291,8 @@ inline constexpr NormalQuantity kNormalQuantities[] = {
     {"wix wiy wiz u1 u2", "wox woy woz weight pdf lobe"},
     {"wix wiy wiz wox woy woz", "pdf"},
     {"wix wiy wiz wox woy woz", "pdf"},
+    {"vx vy vz mx my mz", "D"},
+    {"vx vy vz u1 u2 u3", "mx my mz pdf"},
 };
 
 inline constexpr std::string_view kStretch =
@@ -321,6 +341,13 @@ inline constexpr std::string_view kPdfReflectionBeckmannNote =
     "for opposite sides.";
 inline constexpr std::string_view kPdfReflectionBoundedNote =
     "Density with which sample_visible_reflection_bounded finds wo: that of ggx.pdf_visible_reflection times (1 + s.z)/(1 + k s.z).";
+inline constexpr std::string_view kDVisibleVCavityNote =
+    "masking.v_cavity in place of Smith's G1 in Heitz 2014 Eq. 16: min(|v.m|/|vz|, 2 mz) D(m); v of either side, -v in place of v "
+    "below; vz = 0 counts as above. 0 where v.m and vz differ in sign, and where mz <= 0.";
+inline constexpr std::string_view kSampleVCavityNote =
+    "The normal n of sample_normal, or the other facet of its V-cavity (-n.x, -n.y, n.z), each by its share of what v sees: the other "
+    "where 2 u3 n.z vz < n.z vz - n.x vx - n.y vy; pdf = D_visible_v_cavity. Below the surface -v in place of v, so that mz > 0 on "
+    "either side; vz = 0 counts as above.";
 inline constexpr std::string_view kSampleGgxNote = "m = normalize(alpha_x r cos(2 pi u2), alpha_y r sin(2 pi u2), 1), r = sqrt(u1/(1 - u1)); pdf = D cos.";
 inline constexpr std::string_view kSampleBeckmannNote = "m = normalize(alpha_x r cos(2 pi u2), alpha_y r sin(2 pi u2), 1), r = sqrt(-log(1 - u1)); pdf = D cos.";
 inline constexpr std::string_view kPhongNote =
@@ -356,6 +383,8 @@ inline constexpr NormalRow kNormalRows[] = {
 
     {Normals::kGgx, NormalQuantity::kPdfReflection, "pdf_visible_reflection", "Heitz 2014 Eq. 16; Walter 2007 Eq. 14", kPdfReflectionNote, {{1, 16, 2800, 24, 300}, {1, 16, 2800, 24, 300}}},
     {Normals::kGgx, NormalQuantity::kPdfReflectionBounded, "pdf_visible_reflection_bounded", "Eto and Tokuyoshi 2023; Heitz 2014 Eq. 16; Walter 2007 Eq. 14", kPdfReflectionBoundedNote, {{1, 16, 2800, 24, 300}, {1, 16, 2800, 24, 300}}},
+    {Normals::kGgx, NormalQuantity::kDVisibleVCavity, "D_visible_v_cavity", "Heitz 2014 Eqs. 16, 49", kDVisibleVCavityNote, {{1, 4, 4000, 8, 5000}, {1, 4, 4000, 8, 5000}}},
+    {Normals::kGgx, NormalQuantity::kSampleVCavity, "sample_visible_normal_v_cavity", "Heitz and d'Eon 2014; Heitz 2014 Eqs. 16, 49", kSampleVCavityNote, {{1, 8, 4000, 12, 64}, {1, 8, 4000, 12, 64}}},
 
     {Normals::kBeckmann, NormalQuantity::kD, "D", "Heitz 2014 Eq. 82; Walter 2007 Eq. 25", kStretchedExponent, {{1, 4, 2800, 8, 3000}, {1, 4, 2800, 8, 3000}, {1, 4, 200, 8, 0x1p17}, {1, 4, 200, 8, 0x1p17}}},
     {Normals::kBeckmann, NormalQuantity::kLambda, "Lambda", "Heitz 2014 Eqs. 69, 83", kLambdaExponentNote, {{1, 4, 1700, 8, 2200}, {1, 4, 1700, 8, 2200}, {1, 1, 1700, 1, 50000}, {1, 1, 1, 1, 50000}}},
@@ -367,11 +396,15 @@ inline constexpr NormalRow kNormalRows[] = {
     {Normals::kBeckmann, NormalQuantity::kOwn, "G1_rational", "Walter 2007 Eq. 27, clamped at 1", "The error bound is against Eq. 27; Eq. 27 itself is within 0.313% of Eq. 26.", {{1, 4, 2300, 8, 6}}, "vx vy vz mx my mz | alpha_x alpha_y", "G1"},
     {Normals::kBeckmann, NormalQuantity::kSampleNormal, "sample_normal", "Walter 2007 Eqs. 24, 28, 29, stretched", kSampleBeckmannNote, {{1, 4, 2400, 8, 17}, {1, 4, 2400, 8, 17}, {1, 1, 1, 1, 900}, {1, 1, 1, 1, 900}}},
     {Normals::kBeckmann, NormalQuantity::kOwn, "sample_normal_widened", "Walter 2007 section 5.3", "beckmann.sample_normal with both alphas times 1.2 - 0.2 sqrt(|cos_i|).", {{1, 4, 3000, 8, 17}}, "u1 u2 cos_i | alpha_x alpha_y", "mx my mz pdf"},
+    {Normals::kBeckmann, NormalQuantity::kDVisibleVCavity, "D_visible_v_cavity", "Heitz 2014 Eqs. 16, 49", kDVisibleVCavityNote, {{1, 4, 4000, 8, 5000}, {1, 4, 4000, 8, 5000}}},
+    {Normals::kBeckmann, NormalQuantity::kSampleVCavity, "sample_visible_normal_v_cavity", "Heitz and d'Eon 2014; Heitz 2014 Eqs. 16, 49", kSampleVCavityNote, {{1, 8, 4000, 12, 64}, {1, 8, 4000, 12, 64}}},
 
     {Normals::kPhong, NormalQuantity::kOwn, "exponent", "Walter 2007, after Eq. 30: 2/alpha^2 - 2", "0 for alpha >= 1.", {{1, 4, 1200, 8, 1.5}}, "alpha", "exponent"},
     {Normals::kPhong, NormalQuantity::kD, "D", "Walter 2007 Eq. 30", kPhongNote, {{}, {}, {}, {}, {1, 4, 128, 8, 2000}}},
     {Normals::kPhong, NormalQuantity::kG1, "G1", "Walter 2007 Eq. 27 with a = sqrt(0.5 exponent + 1)/tan(theta_v), clamped at 1", kG1Note, {{}, {}, {}, {}, {1, 4, 2900, 8, 6}}},
     {Normals::kPhong, NormalQuantity::kSampleNormal, "sample_normal", "Walter 2007 Eqs. 24, 31, 32", "cos(theta_m) = u1^(1/(exponent + 2)); pdf = D cos. Double lanes round the logarithm of the density once.", {{}, {}, {}, {}, {1, 4, 1200, 8, 128}}},
+    {Normals::kPhong, NormalQuantity::kDVisibleVCavity, "D_visible_v_cavity", "Heitz 2014 Eqs. 16, 49", kDVisibleVCavityNote, {{}, {}, {}, {}, {1, 4, 4000, 8, 5000}}},
+    {Normals::kPhong, NormalQuantity::kSampleVCavity, "sample_visible_normal_v_cavity", "Heitz and d'Eon 2014; Heitz 2014 Eqs. 16, 49", kSampleVCavityNote, {{}, {}, {}, {}, {1, 4, 3000, 8, 64}}},
 };
 
 // Whether sampling of visible normals is among a distribution's quantities.
@@ -386,10 +419,11 @@ constexpr bool HasVisibleNormals(Normals normals) {
 // the distribution has them.
 struct DielectricQuantity {
   enum What { kEval, kPdf, kEvalPdf, kSample };
+  enum Joint { kCorrelated, kSeparable, kVCavity };
   std::string_view name;
   What what;
   bool reflects, transmits;  // both: the lobe is chosen by Fresnel
-  bool separable;            // masking of the value; else height-correlated
+  Joint joint;               // masking of the value; V-cavities' normals are those that they show
   std::string_view source, note;
   bool visible = false;  // density and samples are those of visible normals, not of D cos
 
@@ -398,34 +432,34 @@ struct DielectricQuantity {
 };
 
 inline constexpr DielectricQuantity kDielectricQuantities[] = {
-    {"eval", DielectricQuantity::kEval, true, true, false, "Walter 2007 Eqs. 19-21; Heitz 2014 Eq. 99", kEvalNote},
-    {"eval_reflection", DielectricQuantity::kEval, true, false, false, "Walter 2007 Eq. 20; Heitz 2014 Eq. 99", kEvalNote},
-    {"eval_transmission", DielectricQuantity::kEval, false, true, false, "Walter 2007 Eq. 21; Heitz 2014 Eq. 99", kEvalNote},
-    {"eval_separable", DielectricQuantity::kEval, true, true, true, "Walter 2007 Eqs. 19-21, 23", kSeparableNote},
-    {"eval_reflection_separable", DielectricQuantity::kEval, true, false, true, "Walter 2007 Eqs. 20, 23", kSeparableNote},
-    {"eval_transmission_separable", DielectricQuantity::kEval, false, true, true, "Walter 2007 Eqs. 21, 23", kSeparableNote},
-    {"pdf", DielectricQuantity::kPdf, true, true, false, "Walter 2007 Eqs. 24, 38, section 5.3", kPdfNote},
-    {"pdf_reflection", DielectricQuantity::kPdf, true, false, false, "Walter 2007 Eqs. 14, 24, 38", kPdfNote},
-    {"pdf_transmission", DielectricQuantity::kPdf, false, true, false, "Walter 2007 Eqs. 17, 24, 38", kPdfNote},
-    {"eval_pdf", DielectricQuantity::kEvalPdf, true, true, false, "Walter 2007 Eqs. 19-21, 24, 38; Heitz 2014 Eq. 99", kEvalPdfNote},
-    {"eval_pdf_separable", DielectricQuantity::kEvalPdf, true, true, true, "Walter 2007 Eqs. 19-21, 23, 24, 38", kEvalPdfSeparableNote},
-    {"sample", DielectricQuantity::kSample, true, true, false, "Walter 2007 section 5.3, Eqs. 37-41; Heitz 2014 Eq. 99", kSampleNote},
-    {"sample_reflection", DielectricQuantity::kSample, true, false, false, "Walter 2007 Eqs. 37-39, 41; Heitz 2014 Eq. 99", kSampleLobeNote},
-    {"sample_transmission", DielectricQuantity::kSample, false, true, false, "Walter 2007 Eqs. 37, 38, 40, 41; Heitz 2014 Eq. 99", kSampleLobeNote},
-    {"sample_separable", DielectricQuantity::kSample, true, true, true, "Walter 2007 section 5.3, Eqs. 23, 37-41", kSampleNote},
-    {"sample_reflection_separable", DielectricQuantity::kSample, true, false, true, "Walter 2007 Eqs. 23, 37-39, 41", kSampleLobeNote},
-    {"sample_transmission_separable", DielectricQuantity::kSample, false, true, true, "Walter 2007 Eqs. 23, 37, 38, 40, 41", kSampleLobeNote},
-    {"pdf_visible", DielectricQuantity::kPdf, true, true, false, "Walter 2007 Eqs. 14, 17, section 5.3; Heitz 2014 Eq. 16", kPdfVisibleNote, true},
-    {"pdf_visible_reflection", DielectricQuantity::kPdf, true, false, false, "Walter 2007 Eq. 14; Heitz 2014 Eq. 16", kPdfVisibleNote, true},
-    {"pdf_visible_transmission", DielectricQuantity::kPdf, false, true, false, "Walter 2007 Eq. 17; Heitz 2014 Eq. 16", kPdfVisibleNote, true},
-    {"eval_pdf_visible", DielectricQuantity::kEvalPdf, true, true, false, "Walter 2007 Eqs. 14, 17, 19-21; Heitz 2014 Eqs. 16, 99", "eval and pdf_visible in one call.", true},
-    {"eval_pdf_visible_separable", DielectricQuantity::kEvalPdf, true, true, true, "Walter 2007 Eqs. 14, 17, 19-21, 23; Heitz 2014 Eq. 16", "eval_separable and pdf_visible in one call.", true},
-    {"sample_visible", DielectricQuantity::kSample, true, true, false, "Walter 2007 section 5.3, Eqs. 37, 39, 40; Heitz 2014 Eqs. 16, 99", kSampleVisibleLobesNote, true},
-    {"sample_visible_reflection", DielectricQuantity::kSample, true, false, false, "Walter 2007 Eqs. 14, 39; Heitz 2014 Eqs. 16, 99", kSampleVisibleLobeNote, true},
-    {"sample_visible_transmission", DielectricQuantity::kSample, false, true, false, "Walter 2007 Eqs. 17, 40; Heitz 2014 Eqs. 16, 99", kSampleVisibleLobeNote, true},
-    {"sample_visible_separable", DielectricQuantity::kSample, true, true, true, "Walter 2007 section 5.3, Eqs. 23, 37, 39, 40; Heitz 2014 Eq. 16", kSampleVisibleLobesNote, true},
-    {"sample_visible_reflection_separable", DielectricQuantity::kSample, true, false, true, "Walter 2007 Eqs. 14, 23, 39; Heitz 2014 Eq. 16", kSampleVisibleLobeNote, true},
-    {"sample_visible_transmission_separable", DielectricQuantity::kSample, false, true, true, "Walter 2007 Eqs. 17, 23, 40; Heitz 2014 Eq. 16", kSampleVisibleLobeNote, true},
+    {"eval", DielectricQuantity::kEval, true, true, DielectricQuantity::kCorrelated, "Walter 2007 Eqs. 19-21; Heitz 2014 Eq. 99", kEvalNote},
+    {"eval_reflection", DielectricQuantity::kEval, true, false, DielectricQuantity::kCorrelated, "Walter 2007 Eq. 20; Heitz 2014 Eq. 99", kEvalNote},
+    {"eval_transmission", DielectricQuantity::kEval, false, true, DielectricQuantity::kCorrelated, "Walter 2007 Eq. 21; Heitz 2014 Eq. 99", kEvalNote},
+    {"eval_separable", DielectricQuantity::kEval, true, true, DielectricQuantity::kSeparable, "Walter 2007 Eqs. 19-21, 23", kSeparableNote},
+    {"eval_reflection_separable", DielectricQuantity::kEval, true, false, DielectricQuantity::kSeparable, "Walter 2007 Eqs. 20, 23", kSeparableNote},
+    {"eval_transmission_separable", DielectricQuantity::kEval, false, true, DielectricQuantity::kSeparable, "Walter 2007 Eqs. 21, 23", kSeparableNote},
+    {"pdf", DielectricQuantity::kPdf, true, true, DielectricQuantity::kCorrelated, "Walter 2007 Eqs. 24, 38, section 5.3", kPdfNote},
+    {"pdf_reflection", DielectricQuantity::kPdf, true, false, DielectricQuantity::kCorrelated, "Walter 2007 Eqs. 14, 24, 38", kPdfNote},
+    {"pdf_transmission", DielectricQuantity::kPdf, false, true, DielectricQuantity::kCorrelated, "Walter 2007 Eqs. 17, 24, 38", kPdfNote},
+    {"eval_pdf", DielectricQuantity::kEvalPdf, true, true, DielectricQuantity::kCorrelated, "Walter 2007 Eqs. 19-21, 24, 38; Heitz 2014 Eq. 99", kEvalPdfNote},
+    {"eval_pdf_separable", DielectricQuantity::kEvalPdf, true, true, DielectricQuantity::kSeparable, "Walter 2007 Eqs. 19-21, 23, 24, 38", kEvalPdfSeparableNote},
+    {"sample", DielectricQuantity::kSample, true, true, DielectricQuantity::kCorrelated, "Walter 2007 section 5.3, Eqs. 37-41; Heitz 2014 Eq. 99", kSampleNote},
+    {"sample_reflection", DielectricQuantity::kSample, true, false, DielectricQuantity::kCorrelated, "Walter 2007 Eqs. 37-39, 41; Heitz 2014 Eq. 99", kSampleLobeNote},
+    {"sample_transmission", DielectricQuantity::kSample, false, true, DielectricQuantity::kCorrelated, "Walter 2007 Eqs. 37, 38, 40, 41; Heitz 2014 Eq. 99", kSampleLobeNote},
+    {"sample_separable", DielectricQuantity::kSample, true, true, DielectricQuantity::kSeparable, "Walter 2007 section 5.3, Eqs. 23, 37-41", kSampleNote},
+    {"sample_reflection_separable", DielectricQuantity::kSample, true, false, DielectricQuantity::kSeparable, "Walter 2007 Eqs. 23, 37-39, 41", kSampleLobeNote},
+    {"sample_transmission_separable", DielectricQuantity::kSample, false, true, DielectricQuantity::kSeparable, "Walter 2007 Eqs. 23, 37, 38, 40, 41", kSampleLobeNote},
+    {"pdf_visible", DielectricQuantity::kPdf, true, true, DielectricQuantity::kCorrelated, "Walter 2007 Eqs. 14, 17, section 5.3; Heitz 2014 Eq. 16", kPdfVisibleNote, true},
+    {"pdf_visible_reflection", DielectricQuantity::kPdf, true, false, DielectricQuantity::kCorrelated, "Walter 2007 Eq. 14; Heitz 2014 Eq. 16", kPdfVisibleNote, true},
+    {"pdf_visible_transmission", DielectricQuantity::kPdf, false, true, DielectricQuantity::kCorrelated, "Walter 2007 Eq. 17; Heitz 2014 Eq. 16", kPdfVisibleNote, true},
+    {"eval_pdf_visible", DielectricQuantity::kEvalPdf, true, true, DielectricQuantity::kCorrelated, "Walter 2007 Eqs. 14, 17, 19-21; Heitz 2014 Eqs. 16, 99", "eval and pdf_visible in one call.", true},
+    {"eval_pdf_visible_separable", DielectricQuantity::kEvalPdf, true, true, DielectricQuantity::kSeparable, "Walter 2007 Eqs. 14, 17, 19-21, 23; Heitz 2014 Eq. 16", "eval_separable and pdf_visible in one call.", true},
+    {"sample_visible", DielectricQuantity::kSample, true, true, DielectricQuantity::kCorrelated, "Walter 2007 section 5.3, Eqs. 37, 39, 40; Heitz 2014 Eqs. 16, 99", kSampleVisibleLobesNote, true},
+    {"sample_visible_reflection", DielectricQuantity::kSample, true, false, DielectricQuantity::kCorrelated, "Walter 2007 Eqs. 14, 39; Heitz 2014 Eqs. 16, 99", kSampleVisibleLobeNote, true},
+    {"sample_visible_transmission", DielectricQuantity::kSample, false, true, DielectricQuantity::kCorrelated, "Walter 2007 Eqs. 17, 40; Heitz 2014 Eqs. 16, 99", kSampleVisibleLobeNote, true},
+    {"sample_visible_separable", DielectricQuantity::kSample, true, true, DielectricQuantity::kSeparable, "Walter 2007 section 5.3, Eqs. 23, 37, 39, 40; Heitz 2014 Eq. 16", kSampleVisibleLobesNote, true},
+    {"sample_visible_reflection_separable", DielectricQuantity::kSample, true, false, DielectricQuantity::kSeparable, "Walter 2007 Eqs. 14, 23, 39; Heitz 2014 Eq. 16", kSampleVisibleLobeNote, true},
+    {"sample_visible_transmission_separable", DielectricQuantity::kSample, false, true, DielectricQuantity::kSeparable, "Walter 2007 Eqs. 17, 23, 40; Heitz 2014 Eq. 16", kSampleVisibleLobeNote, true},
 };
 
 // What a facet of an opaque surface reflects, by its place in kReflectors.
@@ -448,16 +482,19 @@ inline constexpr std::size_t kNumReflectors = std::size(kReflectors);
 // distribution has them. The density alone is rough_dielectric's pdf_reflection, or the distribution's
 // pdf_visible_reflection.
 inline constexpr DielectricQuantity kReflectorQuantities[] = {
-    {"eval", DielectricQuantity::kEval, true, false, false, "Walter 2007 Eq. 20; Heitz 2014 Eq. 99", kReflectorNote},
-    {"eval_separable", DielectricQuantity::kEval, true, false, true, "Walter 2007 Eqs. 20, 23", kSeparableNote},
-    {"eval_pdf", DielectricQuantity::kEvalPdf, true, false, false, "Walter 2007 Eqs. 14, 20, 24, 38; Heitz 2014 Eq. 99", "eval and the density with which sample finds wo, in one call."},
-    {"eval_pdf_separable", DielectricQuantity::kEvalPdf, true, false, true, "Walter 2007 Eqs. 14, 20, 23, 24, 38", kEvalPdfSeparableNote},
-    {"sample", DielectricQuantity::kSample, true, false, false, "Walter 2007 Eqs. 37-39, 41; Heitz 2014 Eq. 99", kReflectorSampleNote},
-    {"sample_separable", DielectricQuantity::kSample, true, false, true, "Walter 2007 Eqs. 23, 37-39, 41", kReflectorSampleNote},
-    {"eval_pdf_visible", DielectricQuantity::kEvalPdf, true, false, false, "Walter 2007 Eqs. 14, 20; Heitz 2014 Eqs. 16, 99", "eval and the density with which sample_visible finds wo, in one call.", true},
-    {"eval_pdf_visible_separable", DielectricQuantity::kEvalPdf, true, false, true, "Walter 2007 Eqs. 14, 20, 23; Heitz 2014 Eq. 16", "eval_separable and the density with which sample_visible finds wo, in one call.", true},
-    {"sample_visible", DielectricQuantity::kSample, true, false, false, "Walter 2007 Eqs. 14, 39; Heitz 2014 Eqs. 16, 99", kReflectorSampleVisibleNote, true},
-    {"sample_visible_separable", DielectricQuantity::kSample, true, false, true, "Walter 2007 Eqs. 14, 23, 39; Heitz 2014 Eq. 16", kReflectorSampleVisibleNote, true},
+    {"eval", DielectricQuantity::kEval, true, false, DielectricQuantity::kCorrelated, "Walter 2007 Eq. 20; Heitz 2014 Eq. 99", kReflectorNote},
+    {"eval_separable", DielectricQuantity::kEval, true, false, DielectricQuantity::kSeparable, "Walter 2007 Eqs. 20, 23", kSeparableNote},
+    {"eval_pdf", DielectricQuantity::kEvalPdf, true, false, DielectricQuantity::kCorrelated, "Walter 2007 Eqs. 14, 20, 24, 38; Heitz 2014 Eq. 99", "eval and the density with which sample finds wo, in one call."},
+    {"eval_pdf_separable", DielectricQuantity::kEvalPdf, true, false, DielectricQuantity::kSeparable, "Walter 2007 Eqs. 14, 20, 23, 24, 38", kEvalPdfSeparableNote},
+    {"sample", DielectricQuantity::kSample, true, false, DielectricQuantity::kCorrelated, "Walter 2007 Eqs. 37-39, 41; Heitz 2014 Eq. 99", kReflectorSampleNote},
+    {"sample_separable", DielectricQuantity::kSample, true, false, DielectricQuantity::kSeparable, "Walter 2007 Eqs. 23, 37-39, 41", kReflectorSampleNote},
+    {"eval_v_cavity", DielectricQuantity::kEval, true, false, DielectricQuantity::kVCavity, "Walter 2007 Eq. 20; Kelemen 2001 Eq. 1; Heitz 2014 Eq. 49", kVCavityNote},
+    {"eval_pdf_v_cavity", DielectricQuantity::kEvalPdf, true, false, DielectricQuantity::kVCavity, "Walter 2007 Eqs. 14, 20; Heitz 2014 Eqs. 16, 49", "eval_v_cavity and the density with which sample_v_cavity finds wo, in one call."},
+    {"sample_v_cavity", DielectricQuantity::kSample, true, false, DielectricQuantity::kVCavity, "Heitz and d'Eon 2014; Walter 2007 Eqs. 14, 39; Heitz 2014 Eqs. 16, 49", kSampleVCavityReflectionNote},
+    {"eval_pdf_visible", DielectricQuantity::kEvalPdf, true, false, DielectricQuantity::kCorrelated, "Walter 2007 Eqs. 14, 20; Heitz 2014 Eqs. 16, 99", "eval and the density with which sample_visible finds wo, in one call.", true},
+    {"eval_pdf_visible_separable", DielectricQuantity::kEvalPdf, true, false, DielectricQuantity::kSeparable, "Walter 2007 Eqs. 14, 20, 23; Heitz 2014 Eq. 16", "eval_separable and the density with which sample_visible finds wo, in one call.", true},
+    {"sample_visible", DielectricQuantity::kSample, true, false, DielectricQuantity::kCorrelated, "Walter 2007 Eqs. 14, 39; Heitz 2014 Eqs. 16, 99", kReflectorSampleVisibleNote, true},
+    {"sample_visible_separable", DielectricQuantity::kSample, true, false, DielectricQuantity::kSeparable, "Walter 2007 Eqs. 14, 23, 39; Heitz 2014 Eq. 16", kReflectorSampleVisibleNote, true},
 };
 
 // A distribution of normals in the models over it.
@@ -469,7 +506,8 @@ struct ModelFamily {
   Bounds eval_reflection, pdf_reflection, sample;
   Bounds reflector_value[kNumReflectors], reflector_sample[kNumReflectors];
   // NOLINTNEXTLINE(readability-redundant-member-init): rows without visible normals leave it out
-  Bounds reflector_sample_visible[kNumReflectors]{}, sample_visible{};
+  Bounds reflector_sample_v_cavity[kNumReflectors]{}, reflector_sample_visible[kNumReflectors]{},
+      sample_visible{};
 
   constexpr const Bounds& BoundsOf(const DielectricQuantity& q) const {
     return q.what == DielectricQuantity::kSample ? (q.visible ? sample_visible : sample)
@@ -486,16 +524,19 @@ inline constexpr ModelFamily kModelFamilies[] = {
      {1, 20, 6500, 24, 0x1p21}, {1, 18, 6500, 24, 0x1p14}, {1, 14, 2400, 20, 40}, {1, 24, 6500, 32, 17},
      {{1, 14, 2900, 20, 250}, {1, 23, 5000, 24, 250}, {1, 17, 5600, 22, 4000}},
      {{1, 14, 450, 16, 13}, {1, 14, 1000, 16, 13}, {1, 14, 450, 16, 13}},
+     {{1, 16, 2800, 24, 4000}, {1, 16, 2800, 24, 4000}, {1, 16, 2800, 24, 4000}},
      {{1, 24, 2800, 32, 24}, {1, 24, 3400, 32, 60}, {1, 24, 2800, 32, 24}}, {1, 24, 6500, 32, 24}},
     {"_beckmann", "alpha_x alpha_y", "Beckmann: Walter 2007 Eqs. 25, 26, 28, 29, stretched",
      {1, 19, 6500, 24, 0x1p21}, {1, 18, 6500, 24, 0x1p14}, {1, 14, 2400, 20, 4800}, {1, 24, 6500, 32, 17},
      {{1, 14, 3400, 20, 4096}, {1, 24, 5800, 24, 4500}, {1, 17, 6500, 22, 4800}},
      {{1, 14, 450, 16, 13}, {1, 14, 1000, 16, 13}, {1, 14, 450, 16, 13}},
+     {{1, 16, 2800, 24, 4000}, {1, 16, 2800, 24, 4000}, {1, 16, 2800, 24, 4000}},
      {{1, 18, 2800, 20, 26}, {1, 18, 2800, 20, 40}, {1, 18, 2800, 20, 26}}, {1, 24, 6500, 32, 24}},
     {"_phong", "exponent", "Phong: Walter 2007 Eqs. 27, 30-32",
      {1, 21, 6500, 24, 0x1p21}, {1, 20, 6500, 24, 0x1p14}, {1, 14, 2400, 20, 4200}, {1, 24, 4600, 32, 17},
      {{1, 15, 4500, 20, 4800}, {1, 24, 7000, 24, 4800}, {1, 17, 7000, 22, 4800}},
-     {{1, 6, 2700, 8, 6}, {1, 6, 2700, 8, 6}, {1, 6, 2700, 8, 6}}},
+     {{1, 6, 2700, 8, 6}, {1, 6, 2700, 8, 6}, {1, 6, 2700, 8, 6}},
+     {{1, 16, 2800, 24, 4000}, {1, 16, 2800, 24, 4000}, {1, 16, 2800, 24, 4000}}},
 };
 // clang-format on
 
@@ -618,11 +659,11 @@ constexpr std::size_t NormalKernel(Normals normals, NormalQuantity::What what, R
 }
 
 // Index into kReflectorQuantities, or their number if there is none.
-constexpr std::size_t FindReflectorQuantity(DielectricQuantity::What what, bool separable,
+constexpr std::size_t FindReflectorQuantity(DielectricQuantity::What what, DielectricQuantity::Joint joint,
                                             bool visible = false) {
   std::size_t i = 0;
   for (const DielectricQuantity& q : kReflectorQuantities) {
-    if (q.what == what && q.separable == separable && q.visible == visible) break;
+    if (q.what == what && q.joint == joint && q.visible == visible) break;
     ++i;
   }
   return i;
@@ -630,10 +671,10 @@ constexpr std::size_t FindReflectorQuantity(DielectricQuantity::What what, bool 
 
 // Index into kDielectricQuantities, or their number if there is none.
 constexpr std::size_t FindDielectricQuantity(DielectricQuantity::What what, bool reflects, bool transmits,
-                                             bool separable, bool visible = false) {
+                                             DielectricQuantity::Joint joint, bool visible = false) {
   std::size_t i = 0;
   for (const DielectricQuantity& q : kDielectricQuantities) {
-    if (q.what == what && q.reflects == reflects && q.transmits == transmits && q.separable == separable &&
+    if (q.what == what && q.reflects == reflects && q.transmits == transmits && q.joint == joint &&
         q.visible == visible) {
       break;
     }
@@ -688,8 +729,9 @@ struct ModelText {
 constexpr ModelText MakeModelText(std::string_view id, std::string_view parameters, std::string_view source,
                                   const ModelFamily& family, const DielectricQuantity& q) {
   const std::string_view lanes = q.what != DielectricQuantity::kSample ? "wix wiy wiz wox woy woz"
-                                 : q.HasBothLobes()                    ? "wix wiy wiz u1 u2 u3"
-                                                                       : "wix wiy wiz u1 u2";
+                                 : q.HasBothLobes() || q.joint == DielectricQuantity::kVCavity
+                                     ? "wix wiy wiz u1 u2 u3"
+                                     : "wix wiy wiz u1 u2";
   return {JoinedText(id, family.suffix, ".", q.name), JoinedText(lanes, " | ", family.parameters, parameters),
           JoinedText(q.source, source, "; ", family.source)};
 }
@@ -753,9 +795,10 @@ constexpr std::array<Kernel, kNumKernels> MakeKernels() {
     const std::size_t reflector = static_cast<std::size_t>(place.reflector);
     const DielectricQuantity& q = kReflectorQuantities[place.quantity];
     add_model(kFirstReflectorKernel + i, kReflectorText[i], q, false,
-              q.what != DielectricQuantity::kSample ? family.reflector_value[reflector]
-              : q.visible                           ? family.reflector_sample_visible[reflector]
-                                                    : family.reflector_sample[reflector]);
+              q.what != DielectricQuantity::kSample     ? family.reflector_value[reflector]
+              : q.joint == DielectricQuantity::kVCavity ? family.reflector_sample_v_cavity[reflector]
+              : q.visible                               ? family.reflector_sample_visible[reflector]
+                                                        : family.reflector_sample[reflector]);
   }
   return kernels;
 }

@@ -347,7 +347,8 @@ HWY_INLINE void NegLog1m(D d, Vec<D> u, Vec<D>& y, Vec<D>& y_tail) {
   const Vec<D> k_low = hn::Mul(k, Const(d, -kLn2Low<D>));
   if constexpr (A == Accuracy::kFast) {
     const Vec<D> log_m = TwoAtanh<A>(d, hn::Div(n, sum));
-    y = hn::NegMulAdd(k, Const(d, kLn2High<D>), hn::Sub(k_low, log_m));
+    // At least u, which the quotient loses where it is subnormal.
+    y = hn::Max(u, hn::NegMulAdd(k, Const(d, kLn2High<D>), hn::Sub(k_low, log_m)));
     y_tail = zero;
   } else {
     const Vec<D> r = hn::Div(one, sum), s = hn::Mul(n, r), s2 = hn::Mul(s, s);

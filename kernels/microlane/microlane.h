@@ -13,6 +13,7 @@
 #include "microlane/phong.h"             // IWYU pragma: export
 #include "microlane/rough_dielectric.h"  // IWYU pragma: export
 #include "microlane/rough_reflector.h"   // IWYU pragma: export
+#include "microlane/roughness.h"         // IWYU pragma: export
 #include "microlane/targets.h"           // IWYU pragma: export
 
 #endif  // MICROLANE_MICROLANE_H_

@@ -81,6 +81,23 @@ class NormalLanes {
                                                accuracy, n);
   }
 
+  // Density of the normals m that V-cavities show to v, in 1/sr: min(|v.m|/|v.z|, 2 m.z) D(m), of masking.h's
+  // VCavity in place of Smith's; sides as for DVisible. Heitz 2014 Eqs. 16, 49. D_visible_v_cavity.
+  static void DVisibleVCavity(std::size_t n, const Directions<T>& v, const Directions<T>& m, const P&... p,
+                              T* d, Accuracy accuracy = Accuracy::kStandard) {
+    Run<NormalQuantity::kDVisibleVCavity>(CallBuilder<T>().In(v).In(m).Out(d), p..., accuracy, n);
+  }
+
+  // Normals m with density pdf = DVisibleVCavity(v, m), in 1/sr, from uniform numbers in [0, 1):
+  // SampleNormal's of u1 and u2, or the other facet of its V-cavity as u3 chooses. m.z > 0 whatever the side
+  // of v. Heitz and d'Eon 2014. sample_visible_normal_v_cavity.
+  static void SampleVisibleNormalVCavity(std::size_t n, const Directions<T>& v, const T* u1, const T* u2,
+                                         const T* u3, const P&... p, MutableDirections<T> m, T* pdf,
+                                         Accuracy accuracy = Accuracy::kStandard) {
+    Run<NormalQuantity::kSampleVCavity>(CallBuilder<T>().In(v).In(u1).In(u2).In(u3).Out(m).Out(pdf), p...,
+                                        accuracy, n);
+  }
+
   // Directions wo that the ideal mirror (F = 1) reflects wi into, about visible normals of
   // SampleVisibleNormal: weight = f |cos(theta_o)| / pdf = G2/G1 with height-correlated masking (Heitz 2014
   // Eq. 99), never above 1; pdf is that of wo, in 1/sr. Another Fresnel multiplies the weight. lobe is 1; it
@@ -127,6 +144,7 @@ class NormalCalls : Lanes... {
  public:
   using Lanes::D...;
   using Lanes::DVisible...;
+  using Lanes::DVisibleVCavity...;
   using Lanes::G1...;
   using Lanes::Lambda...;
   using Lanes::PdfVisibleReflection...;
@@ -134,6 +152,7 @@ class NormalCalls : Lanes... {
   using Lanes::SampleNormal...;
   using Lanes::SampleVisibleNormal...;
   using Lanes::SampleVisibleNormalBounded...;
+  using Lanes::SampleVisibleNormalVCavity...;
   using Lanes::SampleVisibleReflection...;
   using Lanes::SampleVisibleReflectionBounded...;
 };

@@ -52,12 +52,12 @@ struct Phong {
     return ZeroIf(hn::Ge(alpha, one), q);
   }
 
-  // D(m) of Walter 2007 Eq. 30 with cos(theta_m) = mz as given.
+  // factor pi D(m) of Walter 2007 Eq. 30 with cos(theta_m) = mz as given.
   template <Accuracy A, class D>
-  static HWY_INLINE Vec<D> NormalDensity(D d, Vec<D> mz, Vec<D> exponent) {
+  static HWY_INLINE Vec<D> TimesPiNormalDensity(D d, Vec<D> factor, Vec<D> mz, Vec<D> exponent) {
     Vec<D> high, low;
     InDouble2<PowerOp>(d, high, low, mz, exponent);
-    const Vec<D> norm = hn::Mul(hn::Add(exponent, Const(d, 2)), Const(d, 0.5 / kPi));
+    const Vec<D> norm = hn::Mul(Norm(d, exponent), factor);
     return ZeroIf(hn::Le(mz, hn::Zero(d)), ExpTimes<A>(d, high, low, norm));
   }
 

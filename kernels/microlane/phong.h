@@ -1,6 +1,6 @@
-// Phong in batches: D, G1 and SampleNormal of normals.h with one parameter, the exponent, from 0 to 2e10.
-// Walter 2007 Eqs. 30-32; masking by Walter's recipe, Eq. 27 with a = sqrt(0.5 exponent + 1)/tan(theta_v), at
-// most 1.
+// Phong in batches: D, G1, SampleNormal and V-cavities of normals.h with one parameter, the exponent, from 0
+// to 2e10. Walter 2007 Eqs. 30-32; masking by Walter's recipe, Eq. 27 with a = sqrt(0.5 exponent +
+// 1)/tan(theta_v), at most 1.
 #ifndef MICROLANE_PHONG_H_
 #define MICROLANE_PHONG_H_
 

@@ -27,8 +27,9 @@ namespace HWY_NAMESPACE {
 namespace {
 
 enum class Lobes { kReflection, kTransmission, kBoth };
-// What densities are of: D cos; visible normals; those of Dist's smaller cap for reflection.
-enum class Drawn { kNormals, kVisible, kBoundedVisible };
+// What densities are of: D cos; visible normals; those of Dist's smaller cap for reflection; those that
+// V-cavities show.
+enum class Drawn { kNormals, kVisible, kBoundedVisible, kVCavity };
 
 // The lane's own of two values of lobes.
 template <Lobes kLobes, class M, class V>
@@ -238,8 +239,9 @@ HWY_INLINE V MaskingDenominator(V zi, V mu_i, V zo, V mu_o) {
   }
 }
 template <JointMasking kG>
-constexpr double kMaskingFactor =
-    kG == JointMasking::kHeightCorrelated ? 2.0 : 4.0;  // NOLINT(google-readability-casting)
+constexpr double kMaskingFactor = kG == JointMasking::kHeightCorrelated ? 2.0  // NOLINT
+                                  : kG == JointMasking::kSeparable      ? 4.0
+                                                                        : 1.0;
 
 // What facets are: an interface between dielectrics, or what opaque surfaces have (rough_reflector-inl.h).
 // q0 and q1 are its parameters.
@@ -276,7 +278,9 @@ HWY_INLINE void RoughSurfacePass(D d, hn::Mask<D> radiance, Vec<D>& value, Vec<D
   constexpr bool kDielectric = std::is_same_v<Interface, DielectricInterface>;
   static_assert(kDielectric || kLobes == Lobes::kReflection, "opaque surfaces reflect alone");
   constexpr bool kReflects = kLobes != Lobes::kTransmission, kTransmits = kLobes != Lobes::kReflection;
-  constexpr bool kOfVisible = kPdf && kDrawn != Drawn::kNormals;
+  constexpr bool kOfVisible = kPdf && kDrawn != Drawn::kNormals, kVCavity = kG == JointMasking::kVCavity;
+  static_assert(!kVCavity || (kLobes == Lobes::kReflection && kValue), "a joint masking of reflection");
+  static_assert(kVCavity || kDrawn != Drawn::kVCavity, "their densities come with their values");
   constexpr bool kWide = !kIsFloat<D>, kFast = A == Accuracy::kFast;
   constexpr bool kNeedsFresnel = !Interface::kReflectsAll && (kValue || kLobes == Lobes::kBoth);
   constexpr bool kNeedsG = kNeedsFresnel && Interface::kHasG,
@@ -422,18 +426,26 @@ HWY_INLINE void RoughSurfacePass(D d, hn::Mask<D> radiance, Vec<D>& value, Vec<D
   }
 
   // masking: G/|i.n| |o.n| = kMaskingFactor zo / masking. visible: G1(i)/|i.n| = 2 / visible, or more of the
-  // share of visible normals that are drawn from.
-  Vec<D> masking = one, visible = one, mu_i = one;
-  if constexpr (kValue || kOfVisible) mu_i = Dist::template Masking<Care::kPlain, A>(d, ix, iy, iz, p...);
+  // share of visible normals that are drawn from. Of V-cavities G/|i.n| = seen/masking and G1(i)/|i.n| =
+  // seen_i/masking.
+  Vec<D> masking = one, visible = one, mu_i = one, seen = zo, seen_i = one;
+  if constexpr (kVCavity) {
+    const Vec<D> two_hz = hn::Add(hz, hz), product = hn::Mul(ih, oh);
+    seen_i = hn::Min(product, hn::Mul(hn::Mul(two_hz, oh), iz));
+    seen = hn::Min(seen_i, hn::Mul(hn::Mul(two_hz, ih), zo));
+    masking = hn::Mul(product, iz);
+  }
+  if constexpr ((kValue || kOfVisible) && !kVCavity)
+    mu_i = Dist::template Masking<Care::kPlain, A>(d, ix, iy, iz, p...);
   if constexpr (kDrawn == Drawn::kBoundedVisible) {
     Vec<D> factor, over;
     Dist::template LeftOut<A>(d, factor, over, ix, iy, iz, p...);
     visible = hn::NegMulAdd(factor, over, hn::Add(mu_i, iz));
-  } else if constexpr (kOfVisible) {
+  } else if constexpr (kOfVisible && !kVCavity) {
     visible = hn::Add(mu_i, iz);
   }
   if constexpr (kOfVisible && !kValue) masking = visible;
-  if constexpr (kValue) {
+  if constexpr (kValue && !kVCavity) {
     const Vec<D> mu_o = Dist::template Masking<Care::kPlain, A>(d, ox, oy, zo, p...);
     masking = MaskingDenominator<kG>(iz, mu_i, zo, mu_o);
   }
@@ -508,7 +520,7 @@ HWY_INLINE void RoughSurfacePass(D d, hn::Mask<D> radiance, Vec<D>& value, Vec<D
     if constexpr (kTransmits) transmitted = hn::Mul(transmission, hn::IfThenElse(radiance, eta2, one));
     const Vec<D> x = OfLobe<kLobes>(transmits, transmitted, reflection);
     const Vec<D> numerator = hn::Mul(hn::Mul(kPdf ? hn::Mul(ws, Const(d, kFactor)) : ws, x), fresnel);
-    value = hn::Mul(OverDenominator<kInverse, A>(d, numerator, denominator, r), zo);
+    value = hn::Mul(OverDenominator<kInverse, A>(d, numerator, denominator, r), seen);
     if constexpr (Dist::kHasExponent) value = ExpTimes<A>(d, log_high, log_low, value);
     value = ZeroIf(invalid, value);
   }
@@ -524,9 +536,11 @@ HWY_INLINE void RoughSurfacePass(D d, hn::Mask<D> radiance, Vec<D>& value, Vec<D
       invalid = hn::Or(invalid, transmits);
       if constexpr (kNeedsFresnel) x = hn::Mul(x, hn::Mul(hn::Mul(a, a), m2));
     }
-    if constexpr (kValue) x = hn::Mul(x, masking);
+    if constexpr (kValue && !kVCavity) x = hn::Mul(x, masking);
     x = OverDenominator<kInverse, A>(d, x, denominator, r);
-    if constexpr (kOfVisible) {
+    if constexpr (kOfVisible && kVCavity) {
+      x = hn::Mul(hn::Mul(x, seen_i), Const(d, kFactor));
+    } else if constexpr (kOfVisible) {
       x = hn::Mul(x, Const(d, kTransmits ? 2 : 0.5));
       if constexpr (kValue) x = Div<A>(d, x, visible);
     } else {
@@ -612,13 +626,16 @@ HWY_INLINE void SampleRoughSurfacePass(D d, hn::Mask<D> radiance, Vec<D>& ox, Ve
                                        Vec<D> ix, Vec<D> iy, Vec<D> iz_signed, Vec<D> u1, Vec<D> u2,
                                        Vec<D> u3, Vec<D> q0, Vec<D> q1, P... p) {
   constexpr bool kWide = !kIsFloat<D>, kDielectric = std::is_same_v<Interface, DielectricInterface>;
-  constexpr bool kVisible = kDrawn == Drawn::kVisible;
+  constexpr bool kVisible = kDrawn != Drawn::kNormals, kVCavity = kDrawn == Drawn::kVCavity;
+  static_assert(kVCavity == (kG == JointMasking::kVCavity), "V-cavities show normals of their own");
   static_assert(kDielectric || kLobes == Lobes::kReflection, "opaque surfaces reflect alone");
   static_assert(kDrawn != Drawn::kBoundedVisible, "the smaller cap leaves out normals that refract");
   const Vec<D> zero = hn::Zero(d), one = Const(d, 1);
   const Vec<D> iz = hn::Abs(iz_signed);
   Vec<D> mx, my, mz, pdf_m;
-  if constexpr (kVisible) {
+  if constexpr (kVCavity) {
+    SampleVCavityNormal<Dist, Care::kPlain, A>(d, mx, my, mz, pdf_m, ix, iy, iz_signed, u1, u2, u3, p...);
+  } else if constexpr (kVisible) {
     Dist::template SampleVisibleNormal<false, A>(d, mx, my, mz, pdf_m, ix, iy, iz_signed, u1, u2, p...);
   } else {
     Dist::template SampleNormal<Care::kPlain, A>(d, mx, my, mz, pdf_m, u1, u2, p...);
@@ -678,9 +695,13 @@ HWY_INLINE void SampleRoughSurfacePass(D d, hn::Mask<D> radiance, Vec<D>& ox, Ve
   if constexpr (kLobes == Lobes::kTransmission) invalid = hn::Or(invalid, hn::Le(g2, zero));
 
   // weight = numerator / masking: c G/(|i.n| mz), or G2/G1(i) of visible normals.
-  const Vec<D> mu_o = Dist::template Masking<Care::kPlain, A>(d, ox, oy, zo, p...);
-  Vec<D> numerator, masking;
-  if constexpr (kVisible && kG == JointMasking::kSeparable) {
+  Vec<D> numerator, masking, mu_o = one;
+  if constexpr (!kVCavity) mu_o = Dist::template Masking<Care::kPlain, A>(d, ox, oy, zo, p...);
+  if constexpr (kVCavity) {
+    const Vec<D> two_mz = hn::Add(mz, mz);
+    masking = hn::Min(c, hn::Mul(two_mz, iz));
+    numerator = hn::Min(masking, hn::Mul(two_mz, zo));
+  } else if constexpr (kVisible && kG == JointMasking::kSeparable) {
     numerator = hn::Add(zo, zo);
     masking = hn::Add(zo, mu_o);
   } else {
@@ -780,8 +801,8 @@ HWY_INLINE void SampleRoughSurfaceOfOne(D d, hn::Mask<D> radiance, Vec<D>& ox, V
 }
 
 // Walter 2007 section 5.3: m by Dist's D cos or visible sampling, o by Eq. 39 or 40, the weight by Eq. 41.
-// With both lobes u3 chooses by Fresnel, else it has no effect and the weight carries F or 1 - F. p: the
-// parameters of Interface, then the distribution's.
+// With both lobes u3 chooses by Fresnel, else the weight carries F or 1 - F and u3 has no effect, but that of
+// V-cavities chooses their facet. p: the parameters of Interface, then the distribution's.
 template <class Dist, class Interface, Lobes kLobes, JointMasking kG, Drawn kDrawn, Accuracy A, class D,
           class... P>
 HWY_INLINE void SampleRoughSurface(D d, hn::Mask<D> radiance, Vec<D>& ox, Vec<D>& oy, Vec<D>& oz,

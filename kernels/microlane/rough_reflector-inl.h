@@ -54,10 +54,10 @@ struct ConductorFacets {
     m2 = hn::MulAdd(two_ac, s2, big_n);
     a = hn::Add(hn::Add(r, c2), two_ac);
     if constexpr (!kInFloat) a = hn::Max(a, Const(d, 1e-280));
-    const Vec<D> below = hn::Sub(n, one), above = hn::Add(n, one), kappa2 = hn::Mul(kappa, kappa);
-    f = hn::Mul(hn::Mul(hn::Mul(hn::MulAdd(below, below, kappa2), norm),
-                        hn::Mul(hn::MulAdd(above, above, kappa2), norm)),
-                big_n);
+    // |g^2 - c^2|^2 = (n^2 - 1 - kappa^2)^2 + (2 n kappa)^2: where the difference cancels, the other is
+    // greater.
+    const Vec<D> real = hn::Mul(hn::NegMulAdd(kappa, kappa, FusedMulSub(d, n, n, one)), norm);
+    f = hn::Mul(hn::MulAdd(real, real, hn::Mul(twice, twice)), big_n);
   }
 
   template <Accuracy A, class D>

@@ -87,6 +87,19 @@ class RoughReflectorLanes {
                      const DielectricSamples<T>& samples, Accuracy accuracy = Accuracy::kStandard,
                      JointMasking masking = JointMasking::kHeightCorrelated,
                      Sampling sampling = Sampling::kVisibleNormals);
+
+  // The same of V-cavities (Cook and Torrance 1982; Heitz 2014 Eq. 49) in place of Smith's surface: G =
+  // min(1, 2 h.z |wi.z|/(wi.h), 2 h.z |wo.z|/(wo.h)). Densities and samples are of the normals that they show
+  // (SampleVisibleNormalVCavity of normals.h, where u3 chooses the facet); weights are at most 1.
+  // eval_v_cavity, eval_pdf_v_cavity, sample_v_cavity.
+  static void EvalVCavity(std::size_t n, const Directions<T>& wi, const Directions<T>& wo,
+                          const Surface& surface, T* f_cos, Accuracy accuracy = Accuracy::kStandard);
+  static void EvalPdfVCavity(std::size_t n, const Directions<T>& wi, const Directions<T>& wo,
+                             const Surface& surface, T* f_cos, T* pdf,
+                             Accuracy accuracy = Accuracy::kStandard);
+  static void SampleVCavity(std::size_t n, const Directions<T>& wi, const T* u1, const T* u2, const T* u3,
+                            const Surface& surface, const DielectricSamples<T>& samples,
+                            Accuracy accuracy = Accuracy::kStandard);
 };
 
 // The same in float and double: T is that of the outputs.
@@ -100,11 +113,17 @@ class RoughReflectorCalls : RoughReflectorLanes<kNormals, kReflector, float>,
   using Double::Eval;
   using Double::EvalChannels;
   using Double::EvalPdf;
+  using Double::EvalPdfVCavity;
+  using Double::EvalVCavity;
   using Double::Sample;
+  using Double::SampleVCavity;
   using Float::Eval;
   using Float::EvalChannels;
   using Float::EvalPdf;
+  using Float::EvalPdfVCavity;
+  using Float::EvalVCavity;
   using Float::Sample;
+  using Float::SampleVCavity;
 };
 
 using rough_mirror = RoughReflectorCalls<Normals::kGgx, Reflector::kMirror>;

@@ -57,6 +57,7 @@ const FamilyFunction* MathTable();
 const FamilyFunction* FresnelTable();
 const FamilyFunction* HalfVectorTable();
 const FamilyFunction* MaskingTable();
+const FamilyFunction* RoughnessTable();
 template <Normals kNormals>
 const FamilyFunction* NormalsTable();
 template <Normals kNormals>

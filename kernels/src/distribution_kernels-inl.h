@@ -26,9 +26,7 @@ struct NormalQuantityKernel {
   static HWY_INLINE void Eval(D d, const Options<D>& options, const Outputs<D>& out, Vec<D> a, Vec<D> b,
                               V... in) {
     (void)options;
-    if constexpr (kWhat == NormalQuantity::kD && Dist::kDensityOfCosine) {
-      out.v0 = Dist::template NormalDensity<A>(d, in...);
-    } else if constexpr (kWhat == NormalQuantity::kD) {
+    if constexpr (kWhat == NormalQuantity::kD) {
       out.v0 = NormalDensity<Dist, A>(d, a, b, in...);
     } else if constexpr (kWhat == NormalQuantity::kLambda) {
       out.v0 = Lambda<Dist, A>(d, a, b, in...);
@@ -36,6 +34,10 @@ struct NormalQuantityKernel {
       out.v0 = G1<Dist, A>(d, a, b, in...);
     } else if constexpr (kWhat == NormalQuantity::kDVisible) {
       out.v0 = VisibleNormalDensity<Dist, A>(d, a, b, in...);
+    } else if constexpr (kWhat == NormalQuantity::kDVisibleVCavity) {
+      out.v0 = VCavityNormalDensity<Dist, A>(d, a, b, in...);
+    } else if constexpr (kWhat == NormalQuantity::kSampleVCavity) {
+      SampleVCavityNormal<Dist, Care::kCareful, A>(d, out.v0, out.v1, out.v2, out.v3, a, b, in...);
     } else if constexpr (kWhat == NormalQuantity::kSampleNormal) {
       SampleNormal<Dist, A>(d, out.v0, out.v1, out.v2, out.v3, a, b, in...);
     } else if constexpr (kWhat == NormalQuantity::kSampleReflection ||

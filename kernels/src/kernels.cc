@@ -39,10 +39,11 @@ const FamilyFunction* TableOf(std::size_t kernel) {
   }
   const std::string_view id = kKernels[kernel].id;
   const std::string_view family = id.substr(0, id.find('.'));
-  return family == "math"      ? MathTable()
-         : family == "fresnel" ? FresnelTable()
-         : family == "masking" ? MaskingTable()
-                               : HalfVectorTable();
+  return family == "math"        ? MathTable()
+         : family == "fresnel"   ? FresnelTable()
+         : family == "masking"   ? MaskingTable()
+         : family == "roughness" ? RoughnessTable()
+                                 : HalfVectorTable();
 }
 
 const FamilyFunction* Table(std::size_t kernel) {

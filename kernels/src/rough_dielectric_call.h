@@ -65,11 +65,14 @@ class RoughDielectricCall {
  private:
   template <What kWhat, bool kReflects, bool kTransmits, bool kVisible>
   void RunFrom(JointMasking masking, Accuracy accuracy, std::size_t n) const {
-    constexpr auto kernel = [](bool separable) {
+    constexpr auto kernel = [](DielectricQuantity::Joint joint) {
       return DielectricKernel(kNormals,
-                              FindDielectricQuantity(kWhat, kReflects, kTransmits, separable, kVisible));
+                              FindDielectricQuantity(kWhat, kReflects, kTransmits, joint, kVisible));
     };
-    constexpr std::size_t kCorrelated = kernel(false), kSeparable = kernel(kWhat != What::kPdf);
+    constexpr auto kNoMasking = DielectricQuantity::kCorrelated;  // the density alone has none
+    constexpr std::size_t kCorrelated = kernel(DielectricQuantity::kCorrelated);
+    constexpr std::size_t kSeparable =
+        kernel(kWhat == What::kPdf ? kNoMasking : DielectricQuantity::kSeparable);
     if (masking == JointMasking::kSeparable) {
       call_.template Run<kSeparable>(RoughDielectricTable<kNormals>(), accuracy, n);
     } else {

@@ -54,8 +54,8 @@ void AddSurface(const OpaqueSurface<kNormals, kReflector, T>& surface, CallBuild
 
 template <Normals kNormals, Reflector kReflector, DielectricQuantity::What kWhat, bool kVisible, class T>
 void RunReflector(const CallBuilder<T>& call, JointMasking masking, Accuracy accuracy, std::size_t n) {
-  constexpr std::size_t kCorrelated = FindReflectorQuantity(kWhat, false, kVisible);
-  constexpr std::size_t kSeparable = FindReflectorQuantity(kWhat, true, kVisible);
+  constexpr std::size_t kCorrelated = FindReflectorQuantity(kWhat, DielectricQuantity::kCorrelated, kVisible);
+  constexpr std::size_t kSeparable = FindReflectorQuantity(kWhat, DielectricQuantity::kSeparable, kVisible);
   const FamilyFunction* table = RoughReflectorTable<kNormals>();
   if (masking == JointMasking::kSeparable) {
     call.template Run<ReflectorKernel({kNormals, kReflector, kSeparable})>(table, accuracy, n);
@@ -71,6 +71,13 @@ void RunReflector(const CallBuilder<T>& call, JointMasking masking, Sampling sam
   } else {
     RunReflector<kNormals, kReflector, kWhat, false>(call, masking, accuracy, n);
   }
+}
+
+template <Normals kNormals, Reflector kReflector, DielectricQuantity::What kWhat, class T>
+void RunVCavity(const CallBuilder<T>& call, Accuracy accuracy, std::size_t n) {
+  constexpr std::size_t kQuantity = FindReflectorQuantity(kWhat, DielectricQuantity::kVCavity);
+  call.template Run<ReflectorKernel({kNormals, kReflector, kQuantity})>(RoughReflectorTable<kNormals>(),
+                                                                        accuracy, n);
 }
 
 template <Normals kNormals, Reflector kReflector, class T>
@@ -131,6 +138,43 @@ void RoughReflectorLanes<kNormals, kReflector, T>::Sample(std::size_t n, const D
   AddSurface(surface, call);
   call.Out(samples.wo).Out(samples.weight).Out(samples.pdf).Out(samples.lobe);
   RunReflector<kNormals, kReflector, DielectricQuantity::kSample>(call, masking, sampling, accuracy, n);
+}
+
+template <Normals kNormals, Reflector kReflector, class T>
+void RoughReflectorLanes<kNormals, kReflector, T>::EvalVCavity(std::size_t n, const Directions<T>& wi,
+                                                               const Directions<T>& wo,
+                                                               const Surface& surface, T* f_cos,
+                                                               Accuracy accuracy) {
+  CallBuilder<T> call;
+  call.In(wi).In(wo);
+  AddSurface(surface, call);
+  call.Out(f_cos);
+  RunVCavity<kNormals, kReflector, DielectricQuantity::kEval>(call, accuracy, n);
+}
+
+template <Normals kNormals, Reflector kReflector, class T>
+void RoughReflectorLanes<kNormals, kReflector, T>::EvalPdfVCavity(std::size_t n, const Directions<T>& wi,
+                                                                  const Directions<T>& wo,
+                                                                  const Surface& surface, T* f_cos, T* pdf,
+                                                                  Accuracy accuracy) {
+  CallBuilder<T> call;
+  call.In(wi).In(wo);
+  AddSurface(surface, call);
+  call.Out(f_cos).Out(pdf);
+  RunVCavity<kNormals, kReflector, DielectricQuantity::kEvalPdf>(call, accuracy, n);
+}
+
+template <Normals kNormals, Reflector kReflector, class T>
+void RoughReflectorLanes<kNormals, kReflector, T>::SampleVCavity(std::size_t n, const Directions<T>& wi,
+                                                                 const T* u1, const T* u2, const T* u3,
+                                                                 const Surface& surface,
+                                                                 const DielectricSamples<T>& samples,
+                                                                 Accuracy accuracy) {
+  CallBuilder<T> call;
+  call.In(wi).In(u1).In(u2).In(u3);
+  AddSurface(surface, call);
+  call.Out(samples.wo).Out(samples.weight).Out(samples.pdf).Out(samples.lobe);
+  RunVCavity<kNormals, kReflector, DielectricQuantity::kSample>(call, accuracy, n);
 }
 
 }  // namespace microlane

@@ -29,13 +29,18 @@ struct RoughSurfaceKernel {
                                                               : kReflectorQuantities[kDielectric ? 0 : kRow];
   static constexpr std::string_view kId = kKernels[kKernel].id;
   static constexpr bool kSamples = kQuantity.what == DielectricQuantity::kSample;
-  static constexpr Drawn kDrawn = kQuantity.visible ? Drawn::kVisible : Drawn::kNormals;
+  static constexpr bool kVCavity = kQuantity.joint == DielectricQuantity::kVCavity;
+  static constexpr Drawn kDrawn = kVCavity            ? Drawn::kVCavity
+                                  : kQuantity.visible ? Drawn::kVisible
+                                                      : Drawn::kNormals;
   static constexpr bool kValue = kQuantity.HasValue(), kPdf = kQuantity.what != DielectricQuantity::kEval;
   static constexpr Lobes kLobes = kQuantity.HasBothLobes() ? Lobes::kBoth
                                   : kQuantity.reflects     ? Lobes::kReflection
                                                            : Lobes::kTransmission;
-  static constexpr JointMasking kG =
-      kQuantity.separable ? JointMasking::kSeparable : JointMasking::kHeightCorrelated;
+  static constexpr JointMasking kG = kVCavity ? JointMasking::kVCavity
+                                     : kQuantity.joint == DielectricQuantity::kSeparable
+                                         ? JointMasking::kSeparable
+                                         : JointMasking::kHeightCorrelated;
   // Every input enters a product of the result; but Min and Max drop NaN on SCALAR, EMU128 and Arm.
   static constexpr bool kPassesNan = kDielectric && !Dist::kHasExponent && kValue && !kPdf &&
                                      kLobes != Lobes::kTransmission && HWY_ARCH_X86 &&
@@ -49,7 +54,7 @@ struct RoughSurfaceKernel {
   template <Accuracy A, class D, class... V>
   static HWY_INLINE void Eval(D d, const Options<D>& options, const Outputs<D>& out, Vec<D> ix, Vec<D> iy,
                               Vec<D> iz, Vec<D> a, Vec<D> b, V... rest) {
-    if constexpr (kSamples && kLobes != Lobes::kBoth) {
+    if constexpr (kSamples && kLobes != Lobes::kBoth && !kVCavity) {
       FacetsFirst<kRoughness, A>(d, options, out, ix, iy, iz, a, b, hn::Zero(d), rest...);
     } else {
       FacetsFirst<kRoughness, A>(d, options, out, ix, iy, iz, a, b, rest...);

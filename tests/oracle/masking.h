@@ -17,6 +17,38 @@ inline Real VCavityG1(const Vec& v, const Vec& m) {
   return ratio < 1 ? ratio : Real(1);
 }
 
+// Heitz 2014, Eq. 16 with Eq. 49; at v.n = 0 the limit from above.
+template <class Distribution>
+Real VCavityDensity(const Distribution& distribution, const Vec& v, const Vec& m) {
+  const Real facing = v.z < 0 ? Real(-Dot(v, m)) : Dot(v, m);
+  if (facing <= 0 || m.z <= 0) return 0;
+  if (v.z == 0) return 2 * m.z * distribution.D(m);
+  return VCavityG1(v, m) * facing * distribution.D(m) / abs(v.z);
+}
+
+// One of the two facets of a V-cavity by its share of what v sees (Heitz and d'Eon 2014), n and (-n.x, -n.y,
+// n.z): the other where u3 is below its share. `margin` is how far the decision is from turning out
+// otherwise, as a relative change of the dot products; otherwise: takes the facet that was not decided for.
+struct VCavityFacet {
+  Vec m;
+  Real share;  // of what v sees of both
+  Real kappa;  // of the share: its relative change over that of the dot products' terms
+  double margin;
+};
+inline VCavityFacet ChooseFacet(const Vec& v, const Vec& n, const Real& u3, bool otherwise) {
+  const Vec mirrored{-n.x, -n.y, n.z}, up = v.z < 0 ? -v : v;
+  const Real of_n = Dot(up, n), of_mirrored = Dot(up, mirrored);
+  const Real seen_n = of_n > 0 ? of_n : Real(0), seen_mirrored = of_mirrored > 0 ? of_mirrored : Real(0);
+  const Real sum = seen_n + seen_mirrored;
+  const Real sizes = abs(up.x * n.x) + abs(up.y * n.y) + abs(up.z * n.z);
+  const bool other = (u3 * sum < seen_mirrored) != otherwise;
+  const Real seen = other ? seen_mirrored : seen_n;
+  const Real nearest = abs(Real(2 * u3 * up.z * n.z - of_mirrored));
+  return {other ? mirrored : n, sum == 0 ? Real(1) : Real(seen / sum),
+          seen == 0 || seen == sum ? Real(1) : Real(1 + sizes / seen),
+          sizes == 0 ? 0 : static_cast<double>(Real(nearest / sizes))};
+}
+
 // Heitz 2014, Eq. 56.
 inline Real ImplicitG1(const Vec& v, const Vec& m) { return FacingDot(v, m) > 0 ? abs(v.z) : Real(0); }
 

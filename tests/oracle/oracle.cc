@@ -14,6 +14,7 @@
 #include "oracle/math.h"
 #include "oracle/phong.h"
 #include "oracle/rough_reflector.h"
+#include "oracle/roughness.h"
 
 namespace microlane::oracle {
 namespace {
@@ -22,11 +23,13 @@ struct Call {
   const Real* in;
   Transport transport;
   int lobe_hint;
+  bool other_facet;
   Real* out;
   Real kappa = 1, direction_kappa = 1;  // of density and direction
   Real weight_kappa = 0;                // 0: kappa
   double weight_curvature = 0;
   double margin = std::numeric_limits<double>::infinity();
+  double facet_margin = std::numeric_limits<double>::infinity();
 };
 
 using Function = void (*)(Call&);
@@ -121,6 +124,17 @@ void StoreVisibleNormal(const Distribution& distribution, Call& call) {
   call.kappa = normal.kappa;
 }
 
+// A normal that V-cavities show.
+template <class Distribution>
+void StoreVCavityNormal(const Distribution& distribution, Call& call) {
+  const Vec n = distribution.SampleNormal(call.in[3], call.in[4]);
+  const VCavityFacet facet = ChooseFacet(Direction(call.in), n, call.in[5], call.other_facet);
+  Store(facet.m, call.out);
+  call.out[3] = distribution.D(facet.m) * facet.m.z * 2 * facet.share;
+  call.kappa = facet.kappa;
+  call.facet_margin = facet.margin;
+}
+
 // Reflection about a visible normal: Walter 2007, Eqs. 14 and 39; the weight is f |cos(theta_o)| / pdf of
 // Heitz 2014, Eqs. 16 and 99 or 98, less what both have in common.
 template <bool kBounded, class Distribution, class Facets>
@@ -170,6 +184,10 @@ void OfNormals(Call& call) {
     call.out[0] = normals.G1(Direction(call.in), Direction(call.in + 3));
   } else if constexpr (row.what == NormalQuantity::kDVisible) {
     call.out[0] = normals.DVisible(Direction(call.in), Direction(call.in + 3));
+  } else if constexpr (row.what == NormalQuantity::kDVisibleVCavity) {
+    call.out[0] = VCavityDensity(normals, Direction(call.in), Direction(call.in + 3));
+  } else if constexpr (row.what == NormalQuantity::kSampleVCavity) {
+    StoreVCavityNormal(normals, call);
   } else if constexpr (row.what == NormalQuantity::kSampleNormal) {
     StoreNormal(normals, call);
   } else if constexpr (row.what == NormalQuantity::kSampleReflection ||
@@ -196,11 +214,18 @@ void StoreSample(const DirectionSample& sample, Call& call) {
   call.weight_kappa = sample.weight_kappa;
   call.direction_kappa = sample.direction_kappa;
   call.margin = sample.margin;
+  call.facet_margin = sample.facet_margin;
 }
 
 // The roughness that the models take.
 constexpr RoughnessKind ModelRoughness(Normals normals) {
   return normals == Normals::kPhong ? RoughnessKind::kExponent : RoughnessKind::kAnisotropic;
+}
+
+constexpr Masking MaskingOf(const DielectricQuantity& row) {
+  return row.joint == DielectricQuantity::kVCavity     ? Masking::kVCavity
+         : row.joint == DielectricQuantity::kSeparable ? Masking::kSeparable
+                                                       : Masking::kCorrelated;
 }
 
 // The rough dielectric by its place in kDielectricQuantities.
@@ -213,8 +238,8 @@ void Dielectric(Call& call) {
   constexpr RoughnessKind roughness = ModelRoughness(kNormals);
   constexpr std::size_t eta = Split(kRoughnesses[static_cast<std::size_t>(roughness)].parameters).count;
   const auto normals = MakeNormals<kNormals, roughness>(parameters);
-  const RoughDielectric<std::remove_const_t<decltype(normals)>> bsdf{
-      normals, parameters[eta], row.separable ? Masking::kSeparable : Masking::kCorrelated, call.transport};
+  const RoughDielectric<std::remove_const_t<decltype(normals)>> bsdf{normals, parameters[eta], MaskingOf(row),
+                                                                     call.transport};
   const Vec wi = Direction(call.in);
   if constexpr (row.what == DielectricQuantity::kSample) {
     StoreSample(bsdf.Sample(wi, SampleNormal<row.visible>(normals, wi, call.in[3], call.in[4]),
@@ -250,20 +275,23 @@ void OfReflector(Call& call) {
   const Real* const parameters = call.in + Split(kKernels[kKernel].inputs).per_lane;
   const auto normals = MakeNormals<place.normals, roughness>(parameters);
   const auto facets = MakeFacets<place.reflector>(parameters + count);
-  constexpr Masking masking = row.separable ? Masking::kSeparable : Masking::kCorrelated;
+  constexpr Masking masking = MaskingOf(row);
+  constexpr bool v_cavity = masking == Masking::kVCavity;
   const RoughReflector<std::remove_const_t<decltype(normals)>, std::remove_const_t<decltype(facets)>> surface{
       normals, facets, masking};
   const Vec wi = Direction(call.in);
   if constexpr (row.what == DielectricQuantity::kSample && row.visible) {
     StoreVisibleReflection<false>(normals, facets, masking, call);
   } else if constexpr (row.what == DielectricQuantity::kSample) {
-    StoreSample(surface.Sample(wi, call.in[3], call.in[4], call.lobe_hint), call);
+    const Real u3 = v_cavity ? call.in[5] : Real(0);
+    StoreSample(surface.Sample(wi, call.in[3], call.in[4], u3, call.lobe_hint, call.other_facet), call);
   } else {
     const Vec wo = Direction(call.in + 3);
     call.out[0] = surface.EvalCos(wi, wo);
     if constexpr (row.what == DielectricQuantity::kEvalPdf) {
-      if constexpr (row.visible) call.out[1] = PdfVisible(normals, wi, wo);
-      if constexpr (!row.visible) call.out[1] = surface.Pdf(wi, wo);
+      call.out[1] = v_cavity      ? surface.PdfVCavity(wi, wo)
+                    : row.visible ? PdfVisible(normals, wi, wo)
+                                  : surface.Pdf(wi, wo);
     }
   }
 }
@@ -340,6 +368,21 @@ constexpr Entry kEntries[] = {
     {"reflect", [](Call& call) { Store(Reflect(Direction(call.in), Direction(call.in + 3)), call.out); }},
     {"refract",
      [](Call& call) { Store(Refract(Direction(call.in), Direction(call.in + 3), call.in[6]), call.out); }},
+
+    {"roughness.from_moments",
+     [](Call& call) {
+       const Real* const in = call.in;
+       call.out[0] = AlphaOfMoments(in[0], in[2]);
+       call.out[1] = AlphaOfMoments(in[1], in[3]);
+       call.out[2] = CorrelationOfMoments(in[0], in[1], in[2], in[3], in[4]);
+     }},
+    {"roughness.to_moments",
+     [](Call& call) {
+       const Real* const in = call.in;
+       call.out[0] = MixedMoment(in[3], in[3], in[0], in[0], 1);
+       call.out[1] = MixedMoment(in[4], in[4], in[1], in[1], 1);
+       call.out[2] = MixedMoment(in[3], in[4], in[0], in[1], in[2]);
+     }},
 
     {"masking.v_cavity",
      [](Call& call) { call.out[0] = VCavityG1(Direction(call.in), Direction(call.in + 3)); }},
@@ -436,7 +479,8 @@ Real Scale(Metric metric, const Real& exact, const Real& kappa, const Real& dire
 
 }  // namespace
 
-Result Evaluate(std::size_t kernel, const Real* inputs, Transport transport, int lobe_hint) {
+Result Evaluate(std::size_t kernel, const Real* inputs, Transport transport, int lobe_hint,
+                bool other_facet) {
   const Resolved& resolved = kTable[kernel];
   Result result;
   result.margin = std::numeric_limits<double>::infinity();
@@ -448,9 +492,10 @@ Result Evaluate(std::size_t kernel, const Real* inputs, Transport transport, int
     }
     return result;
   }
-  Call call{inputs, transport, lobe_hint, result.exact};
+  Call call{inputs, transport, lobe_hint, other_facet, result.exact};
   resolved.function(call);
   result.margin = call.margin;
+  result.facet_margin = call.facet_margin;
   for (std::size_t i = 0; i < resolved.num_outputs; ++i) {
     const Real& kappa = resolved.weighs[i] && call.weight_kappa != 0 ? call.weight_kappa : call.kappa;
     result.scale[i] = Scale(resolved.metric[i], result.exact[i], kappa, call.direction_kappa);
@@ -459,10 +504,11 @@ Result Evaluate(std::size_t kernel, const Real* inputs, Transport transport, int
   return result;
 }
 
-Result Evaluate(std::size_t kernel, const double* inputs, Transport transport, int lobe_hint) {
+Result Evaluate(std::size_t kernel, const double* inputs, Transport transport, int lobe_hint,
+                bool other_facet) {
   Real real_inputs[kMaxInputs];
   for (std::size_t i = 0; i < kTable[kernel].num_inputs; ++i) real_inputs[i] = inputs[i];
-  return Evaluate(kernel, real_inputs, transport, lobe_hint);
+  return Evaluate(kernel, real_inputs, transport, lobe_hint, other_facet);
 }
 
 bool HasKernel(std::size_t kernel) { return kernel < kNumKernels && kTable[kernel].function != nullptr; }

@@ -14,7 +14,7 @@
 namespace microlane::oracle {
 
 enum class Transport { kRadiance, kImportance };
-enum class Masking { kCorrelated, kSeparable };
+enum class Masking { kCorrelated, kSeparable, kVCavity };
 
 // Lobes, as the kernel list numbers them; kBoth selects either.
 inline constexpr int kNone = 0, kReflection = 1, kTransmission = 2, kBoth = 3;
@@ -50,6 +50,7 @@ struct DirectionSample {
   int lobe = kNone;
   // How far the nearest decision is from turning out otherwise, as a change of wi.m, wo.z or u3.
   double margin = std::numeric_limits<double>::infinity();
+  double facet_margin = std::numeric_limits<double>::infinity();  // of the facets of a V-cavity
   // Amplification of an input rounding by the geometry; see Metric::kConditioned.
   Real kappa = 1;  // of pdf
   Real weight_kappa = 1;
@@ -85,7 +86,9 @@ Real PdfVisible(const Distribution& distribution, const Vec& wi, const Geometry&
 // wo.z)| = |wo.n| (1 + 2 Lambda_o).
 template <class Distribution>
 Real MaskingSlope(const Distribution& distribution, const Vec& wo) {
-  return 1 / abs(wo.z) + distribution.Alphas() / (abs(wo.z) * (1 + 2 * distribution.Lambda(wo)));
+  const Real alphas = distribution.Alphas();
+  if (alphas == 0) return 1 / abs(wo.z);  // 0/0 at wo.n = 0
+  return 1 / abs(wo.z) + alphas / (abs(wo.z) * (1 + 2 * distribution.Lambda(wo)));
 }
 
 template <class Distribution>

@@ -6,6 +6,7 @@
 
 #include "oracle/fresnel.h"
 #include "oracle/half_vector.h"
+#include "oracle/masking.h"
 #include "oracle/real.h"
 #include "oracle/rough_dielectric.h"
 
@@ -64,8 +65,7 @@ struct RoughReflector {
   Real EvalCos(const Vec& wi, const Vec& wo) const {
     const Geometry g = MakeGeometry(wi, wo, 1);
     if (g.lobe != kReflection) return 0;
-    return facets.Reflectance(g.wi_h) * distribution.D(g.h) * SmithG2(distribution, masking, wi, wo) /
-           (4 * abs(wi.z));
+    return facets.Reflectance(g.wi_h) * distribution.D(g.h) * G2(wi, wo, g.h) / (4 * abs(wi.z));
   }
 
   // Walter 2007, Eqs. 14, 24 and 38.
@@ -75,14 +75,27 @@ struct RoughReflector {
     return distribution.D(g.h) * g.h.z * abs(g.wo_h) / g.h_length2;
   }
 
-  // Walter 2007, section 5.3. A lobe_hint >= 0 takes that lobe whatever the decisions would be; margin is
-  // still that of the decisions.
-  DirectionSample Sample(const Vec& wi, const Real& u1, const Real& u2, int lobe_hint) const {
+  // Heitz 2014, Eqs. 16 and 49; Walter 2007, Eq. 14.
+  Real PdfVCavity(const Vec& wi, const Vec& wo) const {
+    const Geometry g = MakeGeometry(wi, wo, 1);
+    if (g.lobe != kReflection) return 0;
+    return VCavityDensity(distribution, wi, g.h) * ReflectionJacobian(abs(g.wi_h));
+  }
+
+  // Walter 2007, section 5.3; of V-cavities about the normals that they show. A lobe_hint >= 0 takes that
+  // lobe whatever the decisions would be, other_facet the other facet; margins are still those of the
+  // decisions.
+  DirectionSample Sample(const Vec& wi, const Real& u1, const Real& u2, const Real& u3, int lobe_hint,
+                         bool other_facet) const {
     DirectionSample sample;
     if (wi.z == 0) return sample;
     const int sign = Sign(wi.z);
-    const Vec m = distribution.SampleNormal(u1, u2);
-    if (m.z == 0) return sample;
+    const bool v_cavity = masking == Masking::kVCavity;
+    const Vec n = distribution.SampleNormal(u1, u2);
+    if (n.z == 0) return sample;
+    const VCavityFacet facet = ChooseFacet(wi, n, u3, other_facet);
+    const Vec m = v_cavity ? facet.m : n;
+    if (v_cavity) sample.facet_margin = facet.margin;
     const Vec facing = Real(sign) * m;
     const Real c = Dot(wi, facing);
     const Vec wo = Reflect(wi, facing);
@@ -96,11 +109,22 @@ struct RoughReflector {
     if (lobe == kNone) return sample;
     sample.lobe = lobe;
     sample.wo = wo;
-    sample.weight = facets.Reflectance(c) * c * SmithG2(distribution, masking, wi, wo) / (abs(wi.z) * m.z);
-    sample.pdf = distribution.D(m) * m.z * ReflectionJacobian(c);
+    const Real normal_pdf = v_cavity ? VCavityDensity(distribution, wi, m) : Real(distribution.D(m) * m.z);
+    const Real over_pdf = v_cavity ? Real(1 / VCavityG1(wi, m)) : Real(c / (abs(wi.z) * m.z));
+    sample.weight = facets.Reflectance(c) * over_pdf * G2(wi, wo, m);
+    sample.pdf = normal_pdf * ReflectionJacobian(c);
     sample.kappa = (1 + 1 / abs(c)) * (1 + 1 / abs(wo.z));
-    sample.weight_kappa = (1 + 1 / abs(c)) * facets.Conditioning(c) * (1 + MaskingSlope(distribution, wo));
+    const Real slope = v_cavity ? Real(1 / abs(wo.z)) : MaskingSlope(distribution, wo);
+    sample.weight_kappa = (1 + 1 / abs(c)) * facets.Conditioning(c) * (1 + slope);
     return sample;
+  }
+
+ private:
+  // Without its sidedness. V-cavities: Cook and Torrance 1982; h.z > 0.
+  Real G2(const Vec& wi, const Vec& wo, const Vec& h) const {
+    if (masking != Masking::kVCavity) return SmithG2(distribution, masking, wi, wo);
+    const Real of_i = VCavityG1(wi, h), of_o = VCavityG1(wo, h);
+    return of_i < of_o ? of_i : of_o;
   }
 };
 

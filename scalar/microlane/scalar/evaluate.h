@@ -19,6 +19,7 @@
 #include "microlane/scalar/phong.h"
 #include "microlane/scalar/rough_dielectric.h"
 #include "microlane/scalar/rough_reflector.h"
+#include "microlane/scalar/roughness.h"
 #include "microlane/scalar/sheared.h"
 
 namespace microlane::scalar {
@@ -85,6 +86,10 @@ void RunNormals(const Real* in, Real* out, Transport) {
     out[0] = G1(normals, Load(in), Load(in + 3));
   } else if constexpr (row.what == NormalQuantity::kDVisible) {
     out[0] = DVisible(normals, Load(in), Load(in + 3));
+  } else if constexpr (row.what == NormalQuantity::kDVisibleVCavity) {
+    out[0] = DVisibleVCavity(normals, Load(in), Load(in + 3));
+  } else if constexpr (row.what == NormalQuantity::kSampleVCavity) {
+    Store(SampleVCavity(normals, Load(in), in[3], in[4], in[5]), out);
   } else if constexpr (row.what == NormalQuantity::kSampleNormal) {
     Store(normals.SampleNormal(in[0], in[1]), out);
   } else if constexpr (row.what == NormalQuantity::kSampleReflection ||
@@ -119,6 +124,12 @@ RoughDielectric<Distribution, Real, masking> MakeDielectric(const Distribution<R
   return {distribution, eta, transport};
 }
 
+constexpr Masking MaskingOf(const DielectricQuantity& row) {
+  return row.joint == DielectricQuantity::kVCavity     ? Masking::kVCavity
+         : row.joint == DielectricQuantity::kSeparable ? Masking::kSeparable
+                                                       : Masking::kHeightCorrelated;
+}
+
 // The rough dielectric by its place in kDielectricQuantities.
 template <class Real, Normals kNormals, std::size_t kQuantity>
 struct Dielectric {
@@ -127,7 +138,7 @@ struct Dielectric {
       static_cast<Lobes>((kRow.reflects ? kReflection : 0U) | (kRow.transmits ? kTransmission : 0U));
 
   static void Run(const Real* in, Real* out, Transport transport) {
-    constexpr Masking masking = kRow.separable ? Masking::kSeparable : Masking::kHeightCorrelated;
+    constexpr Masking masking = MaskingOf(kRow);
     constexpr bool one_lobe_sampled = kRow.what == DielectricQuantity::kSample && !kRow.HasBothLobes();
     const Real* const parameters = in + (one_lobe_sampled ? 5 : 6);
     constexpr RoughnessKind roughness = ModelRoughness(kNormals);
@@ -173,7 +184,8 @@ template <class Real, std::size_t kKernel>
 void RunReflector(const Real* in, Real* out, Transport) {
   constexpr ReflectorKernelPlace place = PlaceOfReflectorKernel(kKernel);
   constexpr DielectricQuantity row = kReflectorQuantities[place.quantity];
-  constexpr Masking masking = row.separable ? Masking::kSeparable : Masking::kHeightCorrelated;
+  constexpr Masking masking = MaskingOf(row);
+  constexpr bool v_cavity = masking == Masking::kVCavity;
   constexpr RoughnessKind roughness = ModelRoughness(place.normals);
   constexpr std::size_t count = Split(kRoughnesses[static_cast<std::size_t>(roughness)].parameters).count;
   const Real* const parameters = in + Split(kKernels[kKernel].inputs).per_lane;
@@ -183,11 +195,14 @@ void RunReflector(const Real* in, Real* out, Transport) {
     out[0] = surface.Eval(Load(in), Load(in + 3));
   } else if constexpr (row.what == DielectricQuantity::kEvalPdf) {
     const auto value = [&] {
+      if constexpr (v_cavity) return surface.EvalAndPdfVCavity(Load(in), Load(in + 3));
       if constexpr (row.visible) return surface.EvalAndPdfVisible(Load(in), Load(in + 3));
-      if constexpr (!row.visible) return surface.EvalAndPdf(Load(in), Load(in + 3));
+      if constexpr (!row.visible && !v_cavity) return surface.EvalAndPdf(Load(in), Load(in + 3));
     }();
     out[0] = value.f_cos;
     out[1] = value.pdf;
+  } else if constexpr (v_cavity) {
+    Store(surface.SampleVCavity(Load(in), in[3], in[4], in[5]), out);
   } else if constexpr (row.visible) {
     Store(surface.SampleVisible(Load(in), in[3], in[4]), out);
   } else {
@@ -296,6 +311,23 @@ constexpr auto Entries() {
                     using W = Wide<Real>;
                     const Vec3<Real> wi = Load(in);
                     Store(Narrow<Real>(Refract(Widen(wi), Widen(Load(in + 3)), W(in[6]), W(Side(wi)))), out);
+                  }},
+
+      Entry<Real>{"roughness.from_moments",
+                  [](const Real* in, Real* out, Transport) {
+                    const Correlation<Real> c =
+                        FromMoments(in[0], in[1], SlopeMoments<Real>{in[2], in[3], in[4]});
+                    out[0] = c.alpha_x;
+                    out[1] = c.alpha_y;
+                    out[2] = c.r_xy;
+                  }},
+      Entry<Real>{"roughness.to_moments",
+                  [](const Real* in, Real* out, Transport) {
+                    const SlopeMoments<Real> m =
+                        ToMoments(Correlation<Real>{in[0], in[1], in[2]}, in[3], in[4]);
+                    out[0] = m.xx;
+                    out[1] = m.yy;
+                    out[2] = m.xy;
                   }},
 
       Entry<Real>{"masking.v_cavity",

@@ -29,6 +29,37 @@ Real VCavityG1(const Vec3<Real>& v, const Vec3<Real>& m) {
   return area < facing ? Narrow<Real>(area / facing) : Real(1);
 }
 
+// The density of the normals that V-cavities show: VCavityG1 |v.m| D(m) / |v.n| = min(|v.m| / |vz|, 2 mz)
+// D(m), Heitz 2014 Eqs. 16, 49. v.n = 0 counts as above the surface.
+template <class Distribution, class Real>
+Real DVisibleVCavity(const Distribution& distribution, const Vec3<Real>& v, const Vec3<Real>& m) {
+  if (AnyNan(distribution, v, m)) return kNan<Real>;
+  const double v_m = Narrow<double>(Dot(Widen(v), Widen(m))), facing = v.z < 0 ? -v_m : v_m;
+  if (!(facing > 0)) return 0;
+  return Saturate<Real>(distribution.DTimes(m, std::min(facing / std::abs(v.z), 2.0 * m.z)));
+}
+
+// A normal that V-cavities show: one by D cos, or the other facet of its cavity, (-mx, -my, mz), each by its
+// share of what v sees (Heitz and d'Eon 2014). Its density is D cos times twice that share.
+template <class Distribution, class Real>
+SampledNormal<double> SampleVCavity(const Distribution& distribution, const Vec3<Real>& v, double u1,
+                                    double u2, double u3) {
+  if (AnyNan(distribution, v, u1, u2, u3)) {
+    return {{kNan<double>, kNan<double>, kNan<double>}, kNan<double>};
+  }
+  SampledNormal<double> normal = distribution.SampleNormal(u1, u2);
+  Vec3<double>& m = normal.m;
+  const double z = m.z * std::abs(v.z), across = Side(v) * (m.x * v.x + m.y * v.y);
+  const bool other = 2 * u3 * z < z - across;
+  if (other) {
+    m.x = -m.x;
+    m.y = -m.y;
+  }
+  const double seen = other ? z - across : z + across;
+  normal.pdf *= seen >= 2 * z ? 2 : seen / z;
+  return normal;
+}
+
 // |vz|, Heitz 2014 Eq. 56.
 template <class Real>
 Real ImplicitG1(const Vec3<Real>& v, const Vec3<Real>& m) {

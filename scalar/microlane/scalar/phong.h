@@ -23,10 +23,13 @@ struct Phong {
   Real exponent;
 
   // Walter 2007 Eq. 30 of m.z as given. 0 for m.z <= 0.
-  Real D(const Vec3<Real>& m) const {
-    if (AnyNan(m, exponent)) return kNan<Real>;
+  Real D(const Vec3<Real>& m) const { return Saturate<Real>(DTimes(m, 1)); }
+
+  // factor D(m), for a factor that may bring D back into range.
+  double DTimes(const Vec3<Real>& m, double factor) const {
+    if (AnyNan(m, exponent)) return kNan<double>;
     if (!(m.z > 0)) return 0;
-    return Saturate<Real>(Scaled(std::pow(m.z, exponent / 2), 1));
+    return Scaled(std::pow(m.z, exponent / 2), factor);
   }
 
   // factor D(half / |half|): cos^e = (1 + tan^2)^(-e/2), and 1 + tan^2 keeps the digits of tan^2 that e, up

@@ -2,12 +2,14 @@
 #ifndef MICROLANE_SCALAR_ROUGH_REFLECTOR_H_
 #define MICROLANE_SCALAR_ROUGH_REFLECTOR_H_
 
+#include <algorithm>
 #include <cmath>
 #include <type_traits>
 
 #include "microlane/scalar/direction.h"
 #include "microlane/scalar/fresnel.h"
 #include "microlane/scalar/half_vector.h"
+#include "microlane/scalar/masking.h"
 #include "microlane/scalar/rough_dielectric.h"
 #include "microlane/scalar/smith.h"
 
@@ -78,29 +80,20 @@ struct RoughReflector {
     return EvalAndPdf(
         wi, wo, [&](const Facet<Real>& facet) { return VisibleDensityFactor(distribution, wi, facet); });
   }
+  // With that for sampling of the normals that V-cavities show: G1/(4 |wi.n|) of Heitz 2014 Eq. 49.
+  EvalPdf<Real> EvalAndPdfVCavity(const Vec3<Real>& wi, const Vec3<Real>& wo) const {
+    return EvalAndPdf(wi, wo, [&](const Facet<Real>& facet) {
+      const double cos_i = std::abs(wi.z);
+      return std::min(1.0, 2 * facet.cos_h * cos_i / facet.cos_i) / (4 * cos_i);
+    });
+  }
 
   // Walter 2007 section 5.3, with Eq. 41 for the weight.
-  DirectionSample<Real> Sample(const Vec3<Real>& wi, Real u1, Real u2) const {
-    using W = Wide<Real>;
-    constexpr DirectionSample<Real> none{{0, 0, 0}, 0, 0, kNoLobe};
-    if (AnyNan(wi, u1, u2, distribution, facets)) {
-      return {{kNan<Real>, kNan<Real>, kNan<Real>}, kNan<Real>, kNan<Real>, kNoLobe};
-    }
-    if (wi.z == 0) return none;
-    const SampledNormal<double> normal = distribution.SampleNormal(u1, u2);
-    if (normal.m.z == 0) return none;
-    const W side = Side(wi);
-    const Vec3<W> m = side * Vec3<W>{normal.m.x, normal.m.y, normal.m.z}, wide_wi = Widen(wi);
-    const W c = Dot(wide_wi, m);
-    if (!(c > W(0))) return none;
-    const Vec3<W> wo = Reflect(wide_wi, m);
-    if (!(side * wo.z > W(0))) return none;
-    DirectionSample<Real> sample{Narrow<Real>(wo), 0, 0, kReflection};
-    const double cos_i = Narrow<double>(c);
-    sample.weight = Saturate<Real>(SampledWeight<masking>(distribution, wi, sample.wo, cos_i, normal.m) *
-                                   facets.Reflectance(c * c));
-    sample.pdf = Saturate<Real>(normal.pdf / (4 * cos_i));
-    return sample;
+  DirectionSample<Real> Sample(const Vec3<Real>& wi, Real u1, Real u2) const { return Sample(wi, u1, u2, 0); }
+  // About normals that V-cavities show, with F G2/G1(wi) for the weight.
+  DirectionSample<Real> SampleVCavity(const Vec3<Real>& wi, Real u1, Real u2, Real u3) const {
+    static_assert(masking == Masking::kVCavity);
+    return Sample(wi, u1, u2, u3);
   }
 
   // About visible normals, with F G2/G1(wi) for the weight.
@@ -115,6 +108,40 @@ struct RoughReflector {
   }
 
  private:
+  // u3 chooses the facet of V-cavities.
+  DirectionSample<Real> Sample(const Vec3<Real>& wi, Real u1, Real u2, Real u3) const {
+    using W = Wide<Real>;
+    constexpr DirectionSample<Real> none{{0, 0, 0}, 0, 0, kNoLobe};
+    if (AnyNan(wi, u1, u2, u3, distribution, facets)) {
+      return {{kNan<Real>, kNan<Real>, kNan<Real>}, kNan<Real>, kNan<Real>, kNoLobe};
+    }
+    if (wi.z == 0) return none;
+    const SampledNormal<double> normal = [&] {
+      if constexpr (masking == Masking::kVCavity) return scalar::SampleVCavity(distribution, wi, u1, u2, u3);
+      if constexpr (masking != Masking::kVCavity) return distribution.SampleNormal(u1, u2);
+    }();
+    if (normal.m.z == 0) return none;
+    const W side = Side(wi);
+    const Vec3<W> m = side * Vec3<W>{normal.m.x, normal.m.y, normal.m.z}, wide_wi = Widen(wi);
+    const W c = Dot(wide_wi, m);
+    if (!(c > W(0))) return none;
+    const Vec3<W> wo = Reflect(wide_wi, m);
+    if (!(side * wo.z > W(0))) return none;
+    DirectionSample<Real> sample{Narrow<Real>(wo), 0, 0, kReflection};
+    const double cos_i = Narrow<double>(c);
+    const double weight = [&] {
+      if constexpr (masking == Masking::kVCavity) {
+        const double of_i = std::min(cos_i, 2 * normal.m.z * std::abs(wi.z));
+        return std::min(of_i, 2 * normal.m.z * std::abs(Narrow<double>(wo.z))) / of_i;
+      } else {
+        return SampledWeight<masking>(distribution, wi, sample.wo, cos_i, normal.m);
+      }
+    }();
+    sample.weight = Saturate<Real>(weight * facets.Reflectance(c * c));
+    sample.pdf = Saturate<Real>(normal.pdf / (4 * cos_i));
+    return sample;
+  }
+
   // density_factor: the density over D, from the facet.
   template <class DensityFactor>
   EvalPdf<Real> EvalAndPdf(const Vec3<Real>& wi, const Vec3<Real>& wo,
@@ -133,7 +160,15 @@ struct RoughReflector {
         reflectance = facets.Widened().Reflectance(FindFacet(Widen(wi), Widen(wo), 1.0).cos2_i);
       }
     }
-    const double factor = reflectance * G2OverCos<masking>(distribution, wi, wo) / 4;
+    const double masking_over_cos = [&] {
+      if constexpr (masking == Masking::kVCavity) {
+        const double of_i = std::abs(wi.z) / facet.cos_i, of_o = std::abs(wo.z) / facet.cos_o;
+        return std::min(1.0, 2 * facet.cos_h * std::min(of_i, of_o)) / std::abs(wi.z);
+      } else {
+        return G2OverCos<masking>(distribution, wi, wo);
+      }
+    }();
+    const double factor = reflectance * masking_over_cos / 4;
     return Saturate<Real>(distribution.DOfHalf(facet.half, factor));
   }
 };
