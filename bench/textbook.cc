@@ -825,6 +825,61 @@ void MaskingKelemen(const float* in, float* out, Transport) {
   out[0] = Sees(w, wm) ? AbsCosTheta(w) / AbsDot(w, wm) : 0;
 }
 
+// Incomplete Beta function over the whole, by Lentz's continued fraction.
+float BetaFraction(float a, float b, float x) {
+  constexpr float kTiny = 1e-30f;
+  float c = 1, d = 1 / (1 - (a + b) * x / (a + 1)), h = d;
+  for (int m = 1; m < 300; ++m) {
+    const float k = static_cast<float>(m);
+    for (const float term : {k * (b - k) * x / ((a - 1 + 2 * k) * (a + 2 * k)),
+                             -(a + k) * (a + b + k) * x / ((a + 2 * k) * (a + 1 + 2 * k))}) {
+      const float below = 1 + term * d;
+      d = 1 / (std::abs(below) < kTiny ? kTiny : below);
+      c = 1 + term / c;
+      h *= d * c;
+    }
+    if (std::abs(d * c - 1) < 3e-7f) break;
+  }
+  return h;
+}
+float RegularisedBeta(float a, float b, float x) {
+  if (x <= 0 || x >= 1) return x <= 0 ? 0 : 1;
+  const float front =
+      std::exp(std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b) + a * std::log(x) + b * std::log(1 - x));
+  return x < (a + 1) / (a + b + 2) ? front * BetaFraction(a, b, x) / a
+                                   : 1 - front * BetaFraction(b, a, 1 - x) / b;
+}
+
+// Smith's Lambda of slopes of Student's density: C (1 + mu^2)^-n / (2 n mu) less the share of slopes above
+// mu.
+struct StudentParts {
+  float gain, loss;
+};
+StudentParts OfStudent(float mu, float n) {
+  const float c = std::exp(std::lgamma(n + 1) - std::lgamma(n + 0.5f)) / std::sqrt(kPi);
+  return {c * std::pow(1 + Sqr(mu), -n) / (2 * n * mu),
+          0.5f * RegularisedBeta(n + 0.5f, 0.5f, 1 / (1 + Sqr(mu)))};
+}
+float StudentLambda(float mu, float n) {
+  const StudentParts parts = OfStudent(mu, n);
+  return parts.gain - parts.loss;
+}
+void StudentDefect(const float* in, float* out, Transport) {
+  const StudentParts parts = OfStudent(in[0], in[1] - 1.5f);
+  out[0] = 1 - parts.loss / parts.gain;
+}
+void MaskingStudentLambda(const float* in, float* out, Transport) {
+  const float roughness = std::sqrt(Sqr(in[3] * in[0]) + Sqr(in[4] * in[1])) * std::sqrt(in[5] - 1);
+  out[0] = StudentLambda(std::abs(in[2]) / roughness, in[5] - 1.5f);
+}
+void PhongLambda(const float* in, float* out, Transport) {
+  out[0] = StudentLambda(1 / std::abs(TanTheta(Load(in))), (in[3] + 1) / 2);
+}
+void PhongG1Smith(const float* in, float* out, Transport) {
+  const Vec3 w = Load(in);
+  out[0] = Sees(w, Load(in + 3)) ? 1 / (1 + StudentLambda(1 / std::abs(TanTheta(w)), (in[6] + 1) / 2)) : 0;
+}
+
 // From atan2 of each azimuth, wrapped.
 float AzimuthDifference(const float* in) {
   const float difference = std::abs(std::atan2(in[1], in[0]) - std::atan2(in[3], in[2]));
@@ -920,11 +975,14 @@ constexpr std::array kEntries = {
     Make<KernelIndex("math.erfinv"), InverseErf>(),
 
     Make<KernelIndex("math.azimuth_difference"), AzimuthsApart>(),
+    Make<KernelIndex("math.student_defect"), StudentDefect>(),
 
     Make<KernelIndex("beckmann.G1_rational"), MaskingG1Rational>(),
     Make<KernelIndex("beckmann.sample_normal_widened"), SampleNormalWidened>(),
 
     Make<KernelIndex("phong.exponent"), PhongExponent>(),
+    Make<KernelIndex("phong.Lambda"), PhongLambda>(),
+    Make<KernelIndex("phong.G1_smith"), PhongG1Smith>(),
 
     Make<KernelIndex("fresnel.dielectric"), Reflectance>(),
     Make<KernelIndex("fresnel.dielectric_transmittance"), Transmittance>(),
@@ -952,6 +1010,7 @@ constexpr std::array kEntries = {
     Make<KernelIndex("masking.separable"), JointSeparable>(),
     Make<KernelIndex("masking.height_correlated"), JointHeight>(),
     Make<KernelIndex("masking.height_correlated_transmission"), JointTransmission>(),
+    Make<KernelIndex("masking.student_lambda"), MaskingStudentLambda>(),
     Make<KernelIndex("masking.direction_correlated"), JointDirection>(),
     Make<KernelIndex("masking.height_direction_correlated"), JointHeightDirection>(),
 };

@@ -53,7 +53,7 @@ class Lanes {
   double Value(std::string_view name) const {
     switch (name[0]) {
       case 'm':
-        return Component(name, m_);
+        return name == "mu" ? alpha_x_ * a_ : Component(name, m_);
       case 'v':
         return Component(name, wi_.z < 0 ? Combine(-1, wi_, 0, wi_) : wi_);
       case 'w':
@@ -74,6 +74,7 @@ class Lanes {
                : name == "f0"       ? 0.04
                : name == "x"        ? x_
                : name == "a"        ? a_
+               : name == "gamma"    ? 1.6 + a_
                : name == "Lambda_i" ? a_
                : name == "Lambda_o" ? alpha_x_ * a_
                                     : alpha_x_;

@@ -229,6 +229,8 @@ const std::vector<Row<T>>& Rows() {
       {"beckmann.G1_rational", [](A& a) { beckmann::G1Rational(a.n, a.Direction(0), a.Direction(3), a.Value(6), a.Value(7), a.Out(0), a.accuracy); }},
       {"beckmann.sample_normal_widened", [](A& a) { beckmann::SampleNormalWidened(a.n, a.Lanes(0), a.Lanes(1), a.Lanes(2), a.Value(3), a.Value(4), a.OutDirection(0), a.Out(3), a.accuracy); }},
 
+      {"phong.Lambda", [](A& a) { phong::Lambda(a.n, a.Direction(0), a.Value(3), a.Out(0), a.accuracy); }},
+      {"phong.G1_smith", [](A& a) { phong::G1Smith(a.n, a.Direction(0), a.Direction(3), a.Value(6), a.Out(0), a.accuracy); }},
       {"phong.exponent", [](A& a) { phong::Exponent(a.n, a.Lanes(0), a.Out(0), a.accuracy); }},
 
       {"fresnel.dielectric", [](A& a) { fresnel::Dielectric(a.n, a.Lanes(0), a.Value(1), a.Out(0), a.accuracy); }},
@@ -257,6 +259,7 @@ const std::vector<Row<T>>& Rows() {
       {"masking.kelemen", [](A& a) { masking::Kelemen(a.n, a.Direction(0), a.Direction(3), a.Out(0), a.accuracy); }},
       {"masking.separable", [](A& a) { masking::Separable(a.n, a.Lanes(0), a.Lanes(1), a.Out(0), a.accuracy); }},
       {"masking.height_correlated", [](A& a) { masking::HeightCorrelated(a.n, a.Lanes(0), a.Lanes(1), a.Out(0), a.accuracy); }},
+      {"masking.student_lambda", [](A& a) { masking::StudentLambda(a.n, a.Direction(0), a.Value(3), a.Value(4), a.Value(5), a.Out(0), a.accuracy); }},
       {"masking.direction_correlated", [](A& a) { masking::DirectionCorrelated(a.n, a.Lanes(0), a.Lanes(1), {a.Lanes(2), a.Lanes(3), nullptr}, {a.Lanes(4), a.Lanes(5), nullptr}, a.Out(0), a.accuracy); }},
       {"masking.height_correlated_transmission", [](A& a) { masking::HeightCorrelatedTransmission(a.n, a.Lanes(0), a.Lanes(1), a.Out(0), a.accuracy); }},
       {"masking.height_direction_correlated", [](A& a) { masking::HeightDirectionCorrelated(a.n, a.Lanes(0), a.Lanes(1), {a.Lanes(2), a.Lanes(3), nullptr}, {a.Lanes(4), a.Lanes(5), nullptr}, a.Out(0), a.accuracy); }},

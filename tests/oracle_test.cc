@@ -19,6 +19,7 @@
 #include "oracle/math.h"
 #include "oracle/phong.h"
 #include "oracle/rough_dielectric.h"
+#include "oracle/student.h"
 #include "ulp.h"
 
 namespace microlane::oracle {
@@ -110,6 +111,9 @@ TEST(OracleMasking, SmithLambdaIsTheVisibleProjectedArea) {
     ExpectSmith(Ggx{{x, y}}, std::sqrt(x * y), "GGX" + what);
     ExpectSmith(Beckmann{{x, y}}, std::sqrt(x * y), "Beckmann" + what);
   }
+  for (const double exponent : {0.0, 1.0, 10.0}) {
+    ExpectSmith(PhongSmith{{exponent}}, std::sqrt(2 / (exponent + 2)), "Phong " + std::to_string(exponent));
+  }
 }
 
 TEST(OracleMasking, G1IsOneOverOnePlusLambda) {
@@ -145,6 +149,48 @@ TEST(OracleMath, ErfcxDefectIsItsDefinition) {
     ExpectRelative(ErfcxDefect(a), 1 - SqrtPi() * a * exp(a * a) * erfc(a), std::exp2(-212), digits);
   }
   EXPECT_EQ(ErfcxDefect(0), 1);
+}
+
+// By parts, d(n) = (1 + 2 n w d(n + 1)) / (2 n + 1): of series and continued fraction, on either side of
+// where one gives way to the other.
+TEST(OracleMath, StudentDefectIsItsOwnSumByParts) {
+  for (const char* n_digits : {"0.05", "0.5", "1", "7.3", "58", "60", "1000", "1e10"}) {
+    for (const char* a_digits : {"1e-30", "1e-3", "0.3", "1", "5.3", "5.5", "30", "1e4", "1e20"}) {
+      const Real n(n_digits), mu = Real(a_digits) / sqrt(n), w = 1 / (1 + mu * mu);
+      const Real parts = (1 + 2 * n * w * StudentDefect(mu, n + 1)) / (2 * n + 1);
+      ExpectRelative(StudentDefect(mu, n), parts, std::exp2(-200), std::string(n_digits) + " " + a_digits);
+    }
+  }
+  EXPECT_EQ(StudentDefect(0, 3), 1);
+}
+
+// The integral by the trapezoidal rule in log(x/mu - 1).
+TEST(OracleMath, StudentDefectIsItsDefinition) {
+  for (const Real n : {0.05, 0.5, 3.0, 100.0}) {
+    for (const Real mu : {1e-3, 0.2, 1.0, 20.0}) {
+      Real integral = 0;
+      constexpr double kStep = 0.125;
+      for (double s = -60; s < (n < 0.1 ? 520 : 160); s += kStep) {
+        const Real from = exp(Real(s)) * mu, x = mu + from;
+        integral += pow(1 + x * x, -n - 1) * from * kStep;
+      }
+      const Real exact = 1 - 2 * n * mu * pow(1 + mu * mu, n) * integral;
+      ExpectRelative(StudentDefect(mu, n), exact, 1e-20, n.str(3) + " " + mu.str(3));
+    }
+  }
+}
+
+TEST(OracleMasking, StudentSlopesAreGgxPhongAndBeckmann) {
+  for (const Vec& v : kUnits) {
+    const Roughness alpha{0.4, 1.5};
+    ExpectRelative(StudentT{alpha, 2}.Lambda(v), Ggx{alpha}.Lambda(v), 1e-100, "GGX");
+    ExpectRelative(PhongSmith{{0}}.Lambda(v), Ggx{{1, 1}}.Lambda(v), 1e-100, "Phong, e = 0");
+    const Real e = 37, same = sqrt(2 / (e + 2));
+    ExpectRelative(StudentT{{same, same}, e / 2 + 2}.Lambda(v), PhongSmith{{e}}.Lambda(v), 1e-100, "Phong");
+    const Real a = 1 / sqrt(InverseA2(v, alpha)), gamma = 1e20;
+    ExpectRelative(StudentT{alpha, gamma}.Lambda(v), Beckmann{alpha}.Lambda(v),
+                   4e-20 * (1 + static_cast<double>(a * a * a * a)), "Beckmann");
+  }
 }
 
 TEST(OracleMath, QuarterTurnsAreExact) {
@@ -663,7 +709,9 @@ TEST(OracleKernelList, EveryEntryIsKnownAndPassesNaNOn) {
     const std::size_t num_outputs = Split(kKernels[kernel].outputs).count;
     for (std::size_t bad = 0; bad < num_inputs; ++bad) {
       double inputs[kMaxInputs];
-      for (double& input : inputs) input = 0.5;
+      for (std::size_t k = 0; k < num_inputs; ++k) {
+        inputs[k] = std::max(0.5, FindInput(Split(kKernels[kernel].inputs).name[k]).low);
+      }
       const Result fine = Evaluate(kernel, inputs);
       inputs[bad] = kNaN;
       const Result r = Evaluate(kernel, inputs);

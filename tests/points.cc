@@ -50,13 +50,16 @@ enum Field : int {
   kU3,
   kX,
   kA,
+  kMu,
+  kGamma,
   kNumFields
 };
 constexpr std::string_view kFieldNames[] = {
-    "mx",     "my",       "mz",        "vx",        "vy",        "vz",       "wix",     "wiy",     "wiz",
-    "wox",    "woy",      "woz",       "cos_i",     "cos_o",     "alpha",    "alpha_x", "alpha_y", "r_xy",
-    "mean_x", "mean_y",   "moment_xx", "moment_yy", "moment_xy", "exponent", "eta",     "n",       "kappa",
-    "f0",     "Lambda_i", "Lambda_o",  "u1",        "u2",        "u3",       "x",       "a"};
+    "mx",      "my",   "mz",     "vx",     "vy",        "vz",        "wix",       "wiy",
+    "wiz",     "wox",  "woy",    "woz",    "cos_i",     "cos_o",     "alpha",     "alpha_x",
+    "alpha_y", "r_xy", "mean_x", "mean_y", "moment_xx", "moment_yy", "moment_xy", "exponent",
+    "eta",     "n",    "kappa",  "f0",     "Lambda_i",  "Lambda_o",  "u1",        "u2",
+    "u3",      "x",    "a",      "mu",     "gamma"};
 static_assert(std::size(kFieldNames) == kNumFields && std::size(kInputs) == kNumFields,
               "one field per input");
 
@@ -288,6 +291,7 @@ class SceneMaker {
     scene_[kA] = random_.Chance(0.02)  ? 0
                  : random_.Chance(0.5) ? random_.LogUniform(1e-6, 1e4)
                                        : 12 * random_.Uniform();
+    if (shape_.has[kGamma]) DrawStudent();
     DrawCosines();
     if (shape_.has[kMx] || shape_.pairs || shape_.samples || shape_.has[kVx]) DrawDirections();
     return scene_;
@@ -355,6 +359,22 @@ class SceneMaker {
     moment(kMomentXx, mean_x * mean_x, x * x / 2);
     moment(kMomentYy, mean_y * mean_y, y * y / 2);
     moment(kMomentXy, mean_x * mean_y, scene_[kRxy] * x * y / 2);
+  }
+
+  // gamma from next to where Lambda is infinite to Beckmann's limit; mu about where Lambda falls, and
+  // anywhere.
+  void DrawStudent() {
+    constexpr double kEdges[] = {1.55, 2, 2.5, 3, 1e10};
+    const double u = random_.Uniform();
+    const double gamma = u < 0.1   ? kEdges[random_.Index(5)]
+                         : u < 0.4 ? 1.5 + random_.LogUniform(0.05, 10)
+                                   : 1.5 + random_.LogUniform(0.05, 1e10);
+    scene_[kGamma] = Fit(kGamma, gamma, values_);
+    const double v = random_.Uniform(), a = v < 0.5 ? 12 * random_.Uniform() : random_.LogUniform(1e-6, 1e4);
+    const double mu = v < 0.02   ? 0
+                      : v < 0.15 ? random_.LogUniform(1e-30, 1e18)
+                                 : a / std::sqrt(scene_[kGamma] - 1);
+    scene_[kMu] = Fit(kMu, mu, values_);
   }
 
   double Eta() {
@@ -588,6 +608,7 @@ constexpr double kGridCorrelations[] = {0, 0.5, -0.9, 0.9999, -0.9999, 1e-4};
 constexpr double kGridMeans[] = {0, 0.1, -1, 3, -16};
 constexpr double kGridMoments[] = {0, 1e-12, 5e-11, 1e-4, 0.02, 1, 256, 5e3};
 constexpr double kGridExponents[] = {0, 0.5, 1, 2, 10, 100, 1e3, 1e4, 1e6, 1e8, 1e10, 2e10};
+constexpr double kGridGammas[] = {1.55, 1.6, 1.8, 2, 2.5, 3, 5, 10, 30, 100, 1e3, 1e5, 1e7, 1e9, 1e10};
 constexpr double kGridEtas[] = {1,    1.0003, 1.33, 1.5,      1.51,     2.42,     4,     1 / 1.0003, 1 / 1.33,
                                 0.66, 0.41,   0.25, 1 + 1e-7, 1 - 1e-7, 1 + 1e-5, 1.001, 0.999,      1.1};
 constexpr double kGridIndices[] = {0.05, 0.1, 0.25, 0.5, 0.9, 1 - 1e-7, 1, 1 + 1e-5, 1.5, 2.5, 4, 10};
@@ -679,6 +700,11 @@ Scene GridScene(const Shape& shape, Digits& digits) {
   take(kCosO, kGridCosines);
   if (shape.has[kX]) scene[kX] = -104 + 192.0 / 4096 * static_cast<double>(digits.Take(4097));
   if (shape.has[kA]) scene[kA] = 0x1p-8 * static_cast<double>(digits.Take(4097));
+  take(kGamma, kGridGammas);
+  if (shape.has[kMu]) {
+    const std::size_t step = digits.Take(257);
+    scene[kMu] = Fit(kMu, step == 0 ? 0 : std::exp2(0.25 * static_cast<double>(step) - 36), Values::kFloats);
+  }
   Vector wi{0, 0, 1}, facing{0, 0, 1};
   if (shape.has[kVx] || shape.has[kWix]) wi = GridDirection(digits);
   const bool rough = shape.has[kAlpha] || shape.has[kAlphaX] || shape.has[kExponent];
@@ -717,6 +743,7 @@ class ExtremeMaker {
     Conductor();
     Azimuths();
     Cavity();
+    Student();
     return std::move(cases_);
   }
 
@@ -743,6 +770,8 @@ class ExtremeMaker {
     scene[kCosO] = -0.9;
     scene[kX] = -1;
     scene[kA] = 1;
+    scene[kMu] = 1;
+    scene[kGamma] = 2.5;
     return scene;
   }
 
@@ -1231,6 +1260,28 @@ class ExtremeMaker {
               Put(scene, kWox, Single(Mirrored(v, side * m)));
               Add("vcavity-kink", "v.m = 2 mz vz, within floats", scene);
             }
+          }
+        }
+      }
+    }
+  }
+
+  // Every gamma from grazing to the normal, where a heavy tail leaves Lambda's bits as a power of mu alone.
+  void Student() {
+    if (!shape_.has[kGamma]) return;
+    Scene scene = Base();
+    for (const double gamma : {1.55, 1.7, 2.0, 2.5, 4.0, 30.0, 1e3, 1e6, 1e10}) {
+      scene[kGamma] = static_cast<float>(gamma);
+      for (const double mu :
+           {0.0, 1e-42, 1e-20, 1e-10, 1e-6, 1e-5, 1e-3, 0.1, 1.0, 3.0, 30.0, 1e3, 1e7, 1e12, 1e18, 0x1p60}) {
+        scene[kMu] = mu;
+        for (const double alpha : {1e-5, 0.3, 1e2}) {
+          SetAlpha(scene, alpha, 0.5 * alpha);
+          const double slope = 1 / (mu * alpha * std::sqrt(gamma - 1));
+          for (const double side : {1.0, -1.0}) {
+            const Vector v = mu == 0 ? Vector{0.6, -0.8, 0} : FromSlopes(0.6 * slope, -0.8 * slope);
+            Put(scene, kVx, Single(side * v));
+            Add("lambda-small", "Student-T slopes from grazing to the normal", scene);
           }
         }
       }

@@ -193,6 +193,15 @@ void Run(const float* const* in, float* const* out, size_t n) {
   OverVectors<K>(in, out, n, std::make_index_sequence<Shape<K>::kIn>());
 }
 
+struct PhongLambdaCase {
+  static constexpr std::string_view kId = "phong.Lambda";
+  template <Accuracy A, class D, class... V>
+  static void Eval(D d, const Options<D>&, const Outputs<D>& out, V... in) {
+    Vec<D> unused;
+    Precisely<typename PhongSmith<kIsFloat<D>>::LambdaOp, A>(d, out.v0, unused, in...);
+  }
+};
+
 template <class... K>
 Cases MakeCases() {
   static constexpr Case cases[] = {{K::kId, &Run<K>}...};
@@ -220,7 +229,7 @@ Cases CasesOnTarget() {
       NormalCase<Beckmann, beckmann, NormalQuantity::kSampleReflection>,
       NormalCase<Phong, phong, NormalQuantity::kD, RoughnessKind::kExponent>,
       NormalCase<Phong, phong, NormalQuantity::kG1, RoughnessKind::kExponent>,
-      NormalCase<Phong, phong, NormalQuantity::kSampleNormal, RoughnessKind::kExponent>,
+      NormalCase<Phong, phong, NormalQuantity::kSampleNormal, RoughnessKind::kExponent>, PhongLambdaCase,
       FresnelCase<FresnelPart::kUnpolarised>, FresnelCase<FresnelPart::kS>, FresnelCase<FresnelPart::kP>,
       FresnelCase<FresnelPart::kTransmittance>, ConductorCase, SchlickCase, VCavityCase, SchlickSmithCase,
       KelemenCase, JointCase<JointForm::kHeight>, JointCase<JointForm::kDirection>,

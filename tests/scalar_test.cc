@@ -36,6 +36,7 @@ constexpr ScalarBound kScalarBounds[] = {
     {"math.neg_log1m", 1, 1},
     {"math.sincos_2pi", 1.25, 1.25},
     {"math.erfcx_defect", 4, 4},
+    {"math.student_defect", 0.51, 12},
     {"ggx.D", 0.51, 5},
     {"ggx.D_isotropic", 0.51, 5},
     {"ggx.Lambda", 0.51, 5},
@@ -103,6 +104,8 @@ constexpr ScalarBound kScalarBounds[] = {
     {"beckmann.D_visible_isotropic", 6, 20},
     {"beckmann.sample_normal_isotropic", 0.51, 12},
     {"phong.exponent", 2.5, 2},
+    {"phong.Lambda", 0.51, 16},
+    {"phong.G1_smith", 0.51, 12},
     {"phong.D", 3, 4},
     {"phong.G1", 0.51, 5},
     {"phong.sample_normal", 0.51, 4},
@@ -132,6 +135,7 @@ constexpr ScalarBound kScalarBounds[] = {
     {"masking.separable", 0.51, 2.5},
     {"masking.height_correlated", 0.51, 2},
     {"masking.height_correlated_transmission", 0.51, 4000},
+    {"masking.student_lambda", 0.51, 16},
     {"masking.direction_correlated", 0.51, 3.5},
     {"masking.height_direction_correlated", 0.51, 2.5},
     {"half_vector.reflection", 0.51, 0.51},
@@ -311,6 +315,9 @@ class Generator {
   }
 
   void DrawParameters() {
+    if (inputs_.name[inputs_.count - 1] == "gamma") {
+      gamma_ = static_cast<float>(Chance(0.1) ? 2 : 1.5 + LogUniform(0.0500001, Chance(0.3) ? 10 : 1e10));
+    }
     alpha_x_ = Alpha();
     alpha_y_ = Chance(0.3) ? alpha_x_ : Alpha();
     eta_ = static_cast<float>(Eta());
@@ -415,6 +422,11 @@ class Generator {
       return Chance(0.1) ? 0 : LogUniform(Chance(0.2) ? 1e-44 : 1e-4, Chance(0.2) ? 1e38 : 1e4);
     if (name == "u1" || name == "u2" || name == "u3") return Random();
     if (name == "x") return Chance(0.2) ? Sign() * LogUniform(1e-20, 1) : -104 + 192 * Uniform();
+    if (name == "gamma") return gamma_;
+    if (name == "mu") {
+      const double a = LogUniform(Chance(0.1) ? 1e-44 : 1e-5, Chance(0.5) ? 10 : 1e4);
+      return Chance(0.05) ? 0 : a / std::sqrt(gamma_ - 1);
+    }
     if (name == "a") return Chance(0.05) ? 0 : LogUniform(Chance(0.1) ? 1e-44 : 1e-5, Chance(0.5) ? 10 : 1e4);
     ADD_FAILURE() << "no generator for input " << name;
     return 0;
@@ -423,7 +435,7 @@ class Generator {
   const std::string_view id_;
   const Names inputs_;
   std::mt19937_64 random_;
-  double alpha_x_ = 1, alpha_y_ = 1, eta_ = 1, exponent_ = 0, cos_i_ = 1, cos_o_ = 1;
+  double alpha_x_ = 1, alpha_y_ = 1, eta_ = 1, exponent_ = 0, cos_i_ = 1, cos_o_ = 1, gamma_ = 2;
   Direction m_{}, v_{}, wi_{}, wo_{};
 };
 

@@ -115,6 +115,8 @@ inline constexpr Input kInputs[] = {
     {"u3", 0, 1, "uniform random number in [0, 1)"},
     {"x", -104, 88, "argument"},
     {"a", 0, 32, "1 / (alpha tan(theta)), Heitz 2014"},
+    {"mu", 0, 0x1p60, "1 / (alpha tan(theta) sqrt(gamma - 1))"},
+    {"gamma", 1.55, 1e10, "Student-T's exponent: 2 is GGX, infinity Beckmann"},
 };
 
 inline constexpr Output kOutputs[] = {
@@ -207,6 +209,7 @@ inline constexpr Kernel kComponentKernels[] = {
     {"math.erfcx", "a", "y", "exp(a^2) erfc(a)", "a >= 0.", false, {1, 1, 96, 1, 8}},
     {"math.erfinv", "u1", "y", "erfinv(2 u - 1)", "u counts as at least 2^-126.", false, {1, 4, 640, 5, 4}},
     {"math.azimuth_difference", "wix wiy wox woy", "phi", "atan2(|wi x wo|, wi.wo) in the plane, used by Heitz 2014 Eqs. 100, 101", "In [0, pi]; 0 where an azimuth is undefined.", false, {1, 4, 64, 8, 4}},
+    {"math.student_defect", "mu | gamma", "y", "1 - 2 n mu (1 + mu^2)^n int_mu^inf (1 + x^2)^-(n + 1) dx: Heitz 2014 Eq. 43 of Student-T slopes is Lambda = Gamma(n) y (1 + mu^2)^-n / (2 sqrt(pi) Gamma(n + 1/2) mu)", "n = gamma - 3/2; 1 - sqrt(pi) a exp(a^2) erfc(a) of a = mu sqrt(gamma - 1) as gamma grows. |mu| is used.", false, {1, 1, 3800, 1, 32}},
 
     {"fresnel.dielectric", "cos_i | eta", "F", "Walter 2007 Eq. 22", kFresnelNote, false, {1, 4, 3600, 8, 13}},
     {"fresnel.dielectric_transmittance", "cos_i | eta", "T", "1 - F, Walter 2007 Eq. 22", "|cos_i| is used; 0 under total internal reflection; 1 at eta = 1.", false, {1, 4, 2400, 8, 8}},
@@ -233,6 +236,7 @@ inline constexpr Kernel kComponentKernels[] = {
     {"masking.separable", "Lambda_i Lambda_o", "G2", "Heitz 2014 Eq. 98", kJointNote, false, {1, 4, 2200, 8, 4}},
     {"masking.height_correlated", "Lambda_i Lambda_o", "G2", "Heitz 2014 Eq. 99", kJointNote, false, {1, 4, 1200, 8, 3}},
     {"masking.height_correlated_transmission", "Lambda_i Lambda_o", "G2", "Heitz et al. 2016", "B(1 + Lambda_i, 1 + Lambda_o), B Euler's Beta function: masking and shadowing from opposite sides of one height. Sidedness is the caller's.", false, {1, 1, 1, 1, 4000}},
+    {"masking.student_lambda", "vx vy vz | alpha_x alpha_y gamma", "Lambda", "Heitz 2014 Eqs. 41-43 of Student-T slopes (d'Eon 2023; Burley 2012)", "Slopes of density 1/(pi alpha_x alpha_y) (1 + (x^2/alpha_x^2 + y^2/alpha_y^2)/(gamma - 1))^-gamma. The same on both sides of the surface; 0 along the normal; the largest finite number where the exact value exceeds it. Double lanes round an exponent of up to 745 once.", false, {1, 1, 1, 1, 6000}},
     {"masking.direction_correlated", "Lambda_i Lambda_o wix wiy wox woy", "G2", "Heitz 2014 Eq. 100", kDirectionNote, false, {1, 4, 2200, 8, 6}},
     {"masking.height_direction_correlated", "Lambda_i Lambda_o wix wiy wox woy", "G2", "Heitz 2014 Eq. 101", kDirectionNote, false, {1, 4, 1200, 8, 4}},
 
@@ -400,8 +404,10 @@ inline constexpr NormalRow kNormalRows[] = {
     {Normals::kBeckmann, NormalQuantity::kSampleVCavity, "sample_visible_normal_v_cavity", "Heitz and d'Eon 2014; Heitz 2014 Eqs. 16, 49", kSampleVCavityNote, {{1, 8, 4000, 12, 64}, {1, 8, 4000, 12, 64}}},
 
     {Normals::kPhong, NormalQuantity::kOwn, "exponent", "Walter 2007, after Eq. 30: 2/alpha^2 - 2", "0 for alpha >= 1.", {{1, 4, 1200, 8, 1.5}}, "alpha", "exponent"},
+    {Normals::kPhong, NormalQuantity::kOwn, "Lambda", "Heitz 2014 Eqs. 41-43 of Student-T slopes with gamma = exponent/2 + 2, alpha = sqrt(2/(exponent + 2)); Heitz 2014 section 7", "Smith's, exactly; the same on both sides of the surface; 0 along the normal; the largest finite number where the exact value exceeds it (vz = 0). Double lanes round an exponent of up to 745 once.", {{1, 1, 5000, 1, 6000}}, "vx vy vz | exponent", "Lambda"},
+    {Normals::kPhong, NormalQuantity::kOwn, "G1_smith", "Heitz 2014 Eqs. 41-43, 80 of Student-T slopes; Heitz 2014 section 7", "1/(1 + Lambda) with phong.Lambda; 0 where (v.m) vz <= 0.", {{1, 1, 2600, 1, 24}}, "vx vy vz mx my mz | exponent", "G1"},
     {Normals::kPhong, NormalQuantity::kD, "D", "Walter 2007 Eq. 30", kPhongNote, {{}, {}, {}, {}, {1, 4, 128, 8, 2000}}},
-    {Normals::kPhong, NormalQuantity::kG1, "G1", "Walter 2007 Eq. 27 with a = sqrt(0.5 exponent + 1)/tan(theta_v), clamped at 1", kG1Note, {{}, {}, {}, {}, {1, 4, 2900, 8, 6}}},
+    {Normals::kPhong, NormalQuantity::kG1, "G1", "Walter 2007 Eq. 27 with a = sqrt(0.5 exponent + 1)/tan(theta_v), clamped at 1", "chi+((v.m)/(v.n)) by Walter's recipe, which is not Phong's own masking: see phong.G1_smith; 0 where (v.m) vz <= 0.", {{}, {}, {}, {}, {1, 4, 2900, 8, 6}}},
     {Normals::kPhong, NormalQuantity::kSampleNormal, "sample_normal", "Walter 2007 Eqs. 24, 31, 32", "cos(theta_m) = u1^(1/(exponent + 2)); pdf = D cos. Double lanes round the logarithm of the density once.", {{}, {}, {}, {}, {1, 4, 1200, 8, 128}}},
     {Normals::kPhong, NormalQuantity::kDVisibleVCavity, "D_visible_v_cavity", "Heitz 2014 Eqs. 16, 49", kDVisibleVCavityNote, {{}, {}, {}, {}, {1, 4, 4000, 8, 5000}}},
     {Normals::kPhong, NormalQuantity::kSampleVCavity, "sample_visible_normal_v_cavity", "Heitz and d'Eon 2014; Heitz 2014 Eqs. 16, 49", kSampleVCavityNote, {{}, {}, {}, {}, {1, 4, 3000, 8, 64}}},

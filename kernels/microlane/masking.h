@@ -1,4 +1,5 @@
-// Masking functions beside Smith's, and joint masking-shadowing, in batches.
+// Masking functions beside Smith's, joint masking-shadowing, and Smith's Lambda of Student-T slopes, in
+// batches.
 //
 // All functions work on n lanes of float or double and are thread-safe. Errors are those that the kernel list
 // declares for the id named with each function; NaN in gives NaN out in that lane. An output may be the same
@@ -70,6 +71,15 @@ void DirectionCorrelated(std::size_t n, const T* lambda_i, const T* lambda_o, Di
 template <class T>
 void HeightDirectionCorrelated(std::size_t n, const T* lambda_i, const T* lambda_o, DirectionsOf<T> wi,
                                DirectionsOf<T> wo, T* g2, Accuracy accuracy = Accuracy::kStandard);
+
+// Smith's Lambda of v for Student-T slopes (d'Eon 2023; Burley 2012), whose density is 1/(pi alpha_x alpha_y)
+// (1 + (x^2/alpha_x^2 + y^2/alpha_y^2)/(gamma - 1))^-gamma: GGX at gamma = 2, Beckmann as gamma grows, Phong
+// of exponent e at gamma = e/2 + 2 and alphas of sqrt(2/(e + 2)). gamma from 1.55 to 1e10. The same on both
+// sides of the surface: 0 along the normal, the largest finite number where the exact value exceeds it. Heitz
+// 2014 Eqs. 41-43. masking.student_lambda.
+template <class T>
+void StudentLambda(std::size_t n, DirectionsOf<T> v, ParameterOf<T> alpha_x, ParameterOf<T> alpha_y,
+                   ParameterOf<T> gamma, T* lambda, Accuracy accuracy = Accuracy::kStandard);
 
 }  // namespace microlane::masking
 

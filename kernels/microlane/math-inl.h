@@ -380,6 +380,16 @@ HWY_INLINE Vec<D> Log(D d, Vec<D> x) {
   return hn::MulAdd(k, Const(d, kLn2High<D>), hn::MulAdd(k, Const(d, kLn2Low<D>), log_m));
 }
 
+// log(1 + a/b) of a >= 0, b > 0, and a normal sum. Below 0.41 of a/b, log(1 + t) = 2 atanh(t/(2 + t)) by its
+// series alone; above, through the exponent of 1 + t.
+template <class D>
+HWY_INLINE Vec<D> LogOnePlusRatio(D d, Vec<D> a, Vec<D> b) {
+  const Vec<D> sum = hn::Add(a, b);
+  const Vec<D> near = TwoAtanh<Accuracy::kStandard>(d, hn::Div(a, hn::Add(sum, b)));
+  const Vec<D> far = Log<Accuracy::kStandard>(d, hn::Div(sum, b));
+  return hn::IfThenElse(hn::Lt(a, hn::Mul(b, Const(d, 0.41))), near, far);
+}
+
 // s + s_tail = sin(2 pi r), c + c_tail = cos(2 pi r) of r = u - q/4, an eighth of a turn at most, for |u| <
 // 2^21 (2^50 in double): the reduction is exact. Tails are 0 in kFast.
 template <Accuracy A, class D>

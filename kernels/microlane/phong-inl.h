@@ -1,4 +1,4 @@
-// Phong (Walter 2007 Eqs. 30-32) in lanes, with Walter's recipe for its masking.
+// Phong (Walter 2007 Eqs. 30-32) in lanes, with Walter's recipe for its masking, and with its own.
 #if defined(MICROLANE_PHONG_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef MICROLANE_PHONG_INL_H_
 #undef MICROLANE_PHONG_INL_H_
@@ -7,6 +7,7 @@
 #endif
 
 #include "microlane/beckmann-inl.h"
+#include "microlane/student-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace microlane {
@@ -27,12 +28,7 @@ struct Phong {
   static HWY_INLINE Vec<D> LogDensity(D d, Vec<D> hx, Vec<D> hy, Vec<D> hz, Vec<D> exponent) {
     const Vec<D> r2 = hn::MulAdd(hx, hx, hn::Mul(hy, hy));
     const Vec<D> z2 = hn::Max(hn::Mul(hz, hz), Const(d, kIsFloat<D> ? 0x1p-100 : 0x1p-900));
-    const Vec<D> sum = hn::Add(r2, z2);
-    // Below tan = 0.41, log(1 + t) = 2 atanh(t/(2 + t)) by its series alone; above, through the exponent of 1
-    // + t.
-    const Vec<D> near = TwoAtanh<Accuracy::kStandard>(d, hn::Div(r2, hn::Add(sum, z2)));
-    const Vec<D> far = Log<Accuracy::kStandard>(d, hn::Div(sum, z2));
-    const Vec<D> log = hn::IfThenElse(hn::Lt(r2, hn::Mul(z2, Const(d, 0.41))), near, far);
+    const Vec<D> log = LogOnePlusRatio(d, r2, z2);
     return hn::Max(hn::Mul(hn::Mul(exponent, Const(d, -0.5)), log), Const(d, -2000));
   }
 
@@ -115,6 +111,43 @@ struct Phong {
       SplitHigh(dd, hn::Div(log, hn::Add(exponent, Const(dd, 2))), high, low);
     }
   };
+};
+
+// Phong with Smith's masking of its own: P22 = (exponent + 2)/(2 pi) (1 + x^2 + y^2)^-(exponent/2 + 2) is
+// Student's t of n = (exponent + 1)/2.
+template <bool kFloatResult>
+struct PhongSmith : Phong {
+  // |vz| Lambda(v) = factor exp(-power), next to 0 along the normal.
+  template <Accuracy A, class D>
+  static HWY_INLINE void LambdaFactors(D d, Vec<D>& factor, Vec<D>& power, Vec<D> vx, Vec<D> vy, Vec<D> z,
+                                       Vec<D> exponent) {
+    // Float lanes keep vx^2 from underflow where Lambda has not; nothing else depends on the scale.
+    const Vec<D> scale = Const(d, kIsFloat<D> ? 0x1p30 : 1);
+    const Vec<D> x = hn::Mul(vx, scale), y = hn::Mul(vy, scale);
+    const Vec<D> s2 = hn::Max(hn::MulAdd(x, x, hn::Mul(y, y)), Const(d, kIsFloat<D> ? 0x1p-120 : 0x1p-1000));
+    StudentLambdaFactors<StudentFit<A, kFloatResult>, A>(d, factor, power, s2, hn::Mul(z, scale),
+                                                         hn::MulAdd(exponent, Const(d, 0.5), Const(d, 0.5)));
+    factor = hn::Mul(factor, Const(d, kIsFloat<D> ? 0x1p-30 : 1));
+  }
+
+  struct LambdaOp {
+    template <Accuracy A, class D>
+    static HWY_INLINE void Run(D d, Vec<D>& lambda, Vec<D>& unused, Vec<D> vx, Vec<D> vy, Vec<D> vz,
+                               Vec<D> exponent) {
+      Vec<D> factor, power;
+      const Vec<D> z = hn::Abs(vz);
+      LambdaFactors<A>(d, factor, power, vx, vy, z, exponent);
+      const auto flat = hn::Eq(hn::Add(hn::Abs(vx), hn::Abs(vy)), hn::Zero(d));
+      lambda = unused = StudentLambda<A>(d, factor, power, z, flat);
+    }
+  };
+
+  template <Care, Accuracy A, class D>
+  static HWY_INLINE Vec<D> Masking(D d, Vec<D> vx, Vec<D> vy, Vec<D> z, Vec<D> exponent) {
+    Vec<D> factor, power;
+    LambdaFactors<A>(d, factor, power, vx, vy, z, exponent);
+    return hn::Add(z, ExpTimes<A>(d, hn::Neg(power), hn::Zero(d), hn::Add(factor, factor)));
+  }
 };
 
 }  // namespace

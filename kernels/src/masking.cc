@@ -64,11 +64,20 @@ struct TransmissionKernel {
   }
 };
 
+struct StudentLambdaKernel {
+  static constexpr std::string_view kId = "masking.student_lambda";
+  template <Accuracy, class D, class... V>
+  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, V... in) {
+    Vec<D> unused;
+    Precisely<StudentLambdaOp<kIsFloat<D>>, Accuracy::kStandard>(d, out.v0, unused, in...);
+  }
+};
+
 FamilyCode FamilyOnTarget() {
   return Family<VCavityKernel, ImplicitKernel, SchlickSmithKernel, KelemenKernel,
                 JointKernel<JointForm::kSeparable>, JointKernel<JointForm::kHeight>,
                 JointKernel<JointForm::kDirection>, JointKernel<JointForm::kHeightDirection>,
-                TransmissionKernel>();
+                TransmissionKernel, StudentLambdaKernel>();
 }
 
 }  // namespace
@@ -148,6 +157,18 @@ void HeightCorrelatedTransmission(std::size_t n, const T* lambda_i, const T* lam
 }
 
 template <class T>
+void StudentLambda(std::size_t n, DirectionsOf<T> v, ParameterOf<T> alpha_x, ParameterOf<T> alpha_y,
+                   ParameterOf<T> gamma, T* lambda, Accuracy accuracy) {
+  CallBuilder<T>()
+      .In(v)
+      .In(alpha_x)
+      .In(alpha_y)
+      .In(gamma)
+      .Out(lambda)
+      .template Run<KernelIndex("masking.student_lambda")>(MaskingTable(), accuracy, n);
+}
+
+template <class T>
 void DirectionCorrelated(std::size_t n, const T* lambda_i, const T* lambda_o, DirectionsOf<T> wi,
                          DirectionsOf<T> wo, T* g2, Accuracy accuracy) {
   OfAzimuths<KernelIndex("masking.direction_correlated")>(n, lambda_i, lambda_o, wi, wo, g2, accuracy);
@@ -167,6 +188,8 @@ void HeightDirectionCorrelated(std::size_t n, const T* lambda_i, const T* lambda
   template void Separable(std::size_t, const T*, const T*, T*, Accuracy);                                    \
   template void HeightCorrelated(std::size_t, const T*, const T*, T*, Accuracy);                             \
   template void HeightCorrelatedTransmission(std::size_t, const T*, const T*, T*, Accuracy);                 \
+  template void StudentLambda(std::size_t, Directions<T>, Parameter<T>, Parameter<T>, Parameter<T>, T*,      \
+                              Accuracy);                                                                     \
   template void DirectionCorrelated(std::size_t, const T*, const T*, Directions<T>, Directions<T>, T*,       \
                                     Accuracy);                                                               \
   template void HeightDirectionCorrelated(std::size_t, const T*, const T*, Directions<T>, Directions<T>, T*, \

@@ -2,6 +2,7 @@
 #define HWY_TARGET_INCLUDE "src/math.cc"
 #include "hwy/foreach_target.h"  // must stand before highway.h
 #include "microlane/math-inl.h"
+#include "microlane/student-inl.h"
 #include "src/batch-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -68,9 +69,18 @@ struct AzimuthDifferenceKernel {
   }
 };
 
+struct StudentDefectKernel {
+  static constexpr std::string_view kId = "math.student_defect";
+  template <Accuracy A, class D>
+  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, Vec<D> mu, Vec<D> gamma) {
+    Vec<D> unused;
+    Precisely<StudentDefectOp<kIsFloat<D>>, A>(d, out.v0, unused, mu, gamma);
+  }
+};
+
 FamilyCode FamilyOnTarget() {
   return Family<ExpKernel, NegLog1mKernel, SinCos2PiKernel, ErfcxDefectKernel, ErfcxKernel, ErfInvKernel,
-                AzimuthDifferenceKernel>();
+                AzimuthDifferenceKernel, StudentDefectKernel>();
 }
 
 }  // namespace

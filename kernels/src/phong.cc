@@ -18,7 +18,26 @@ struct ExponentKernel {
   }
 };
 
-FamilyCode FamilyOnTarget() { return NormalsFamily<Phong, Normals::kPhong, ExponentKernel>(); }
+struct LambdaKernel {
+  static constexpr std::string_view kId = "phong.Lambda";
+  template <Accuracy A, class D, class... V>
+  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, V... in) {
+    Vec<D> unused;
+    Precisely<typename PhongSmith<kIsFloat<D>>::LambdaOp, A>(d, out.v0, unused, in...);
+  }
+};
+
+struct G1SmithKernel {
+  static constexpr std::string_view kId = "phong.G1_smith";
+  template <Accuracy A, class D, class... V>
+  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, V... in) {
+    out.v0 = G1<PhongSmith<kIsFloat<D>>, A>(d, in...);
+  }
+};
+
+FamilyCode FamilyOnTarget() {
+  return NormalsFamily<Phong, Normals::kPhong, ExponentKernel, LambdaKernel, G1SmithKernel>();
+}
 
 }  // namespace
 }  // namespace HWY_NAMESPACE

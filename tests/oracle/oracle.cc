@@ -15,6 +15,7 @@
 #include "oracle/phong.h"
 #include "oracle/rough_reflector.h"
 #include "oracle/roughness.h"
+#include "oracle/student.h"
 
 namespace microlane::oracle {
 namespace {
@@ -316,6 +317,8 @@ constexpr Entry kEntries[] = {
     {"math.erfinv", [](Call& call) { call.out[0] = ErfInv(call.in[0]); }},
     {"math.azimuth_difference",
      [](Call& call) { call.out[0] = AzimuthDifference(call.in[0], call.in[1], call.in[2], call.in[3]); }},
+    {"math.student_defect",
+     [](Call& call) { call.out[0] = StudentDefect(abs(call.in[0]), call.in[1] - Real(3) / 2); }},
 
     {"beckmann.G1_rational",
      [](Call& call) {
@@ -330,6 +333,11 @@ constexpr Entry kEntries[] = {
      }},
 
     {"phong.exponent", [](Call& call) { call.out[0] = PhongExponent(call.in[0]); }},
+    {"phong.Lambda", [](Call& call) { call.out[0] = PhongSmith{{call.in[3]}}.Lambda(Direction(call.in)); }},
+    {"phong.G1_smith",
+     [](Call& call) {
+       call.out[0] = PhongSmith{{call.in[6]}}.G1(Direction(call.in), Direction(call.in + 3));
+     }},
 
     {"fresnel.dielectric", [](Call& call) { call.out[0] = FresnelDielectric(call.in[0], call.in[1]); }},
     {"fresnel.dielectric_transmittance",
@@ -399,6 +407,11 @@ constexpr Entry kEntries[] = {
      [](Call& call) { call.out[0] = HeightCorrelatedG2(call.in[0], call.in[1]); }},
     {"masking.height_correlated_transmission",
      [](Call& call) { call.out[0] = HeightCorrelatedTransmissionG2(call.in[0], call.in[1]); }},
+    {"masking.student_lambda",
+     [](Call& call) {
+       const StudentT student{{call.in[3], call.in[4]}, call.in[5]};
+       call.out[0] = student.Lambda(Direction(call.in));
+     }},
     {"masking.direction_correlated",
      [](Call& call) {
        const Real phi = AzimuthDifference(call.in[2], call.in[3], call.in[4], call.in[5]);

@@ -21,6 +21,7 @@
 #include "microlane/scalar/rough_reflector.h"
 #include "microlane/scalar/roughness.h"
 #include "microlane/scalar/sheared.h"
+#include "microlane/scalar/student.h"
 
 namespace microlane::scalar {
 
@@ -246,6 +247,12 @@ constexpr auto Entries() {
                                  ? kNan<Real>
                                  : static_cast<Real>(AzimuthDifference(in[0], in[1], in[2], in[3]));
                   }},
+      Entry<Real>{"math.student_defect",
+                  [](const Real* in, Real* out, Transport) {
+                    out[0] = AnyNan(in[0], in[1])
+                                 ? kNan<Real>
+                                 : static_cast<Real>(StudentDefect(std::abs(in[0]), in[1] - 1.5));
+                  }},
 
       Entry<Real>{"beckmann.G1_rational",
                   [](const Real* in, Real* out, Transport) {
@@ -258,6 +265,12 @@ constexpr auto Entries() {
 
       Entry<Real>{"phong.exponent",
                   [](const Real* in, Real* out, Transport) { out[0] = PhongExponent(in[0]); }},
+      Entry<Real>{"phong.Lambda", [](const Real* in, Real* out,
+                                     Transport) { out[0] = Lambda(PhongSmith<Real>{in[3]}, Load(in)); }},
+      Entry<Real>{"phong.G1_smith",
+                  [](const Real* in, Real* out, Transport) {
+                    out[0] = G1(PhongSmith<Real>{in[6]}, Load(in), Load(in + 3));
+                  }},
 
       Entry<Real>{"fresnel.dielectric",
                   [](const Real* in, Real* out, Transport) {
@@ -347,6 +360,10 @@ constexpr auto Entries() {
       Entry<Real>{"masking.height_correlated_transmission",
                   [](const Real* in, Real* out, Transport) {
                     out[0] = HeightCorrelatedTransmissionG2(in[0], in[1]);
+                  }},
+      Entry<Real>{"masking.student_lambda",
+                  [](const Real* in, Real* out, Transport) {
+                    out[0] = Lambda(StudentT<Real>{in[3], in[4], in[5]}, Load(in));
                   }},
       Entry<Real>{"masking.direction_correlated",
                   [](const Real* in, Real* out, Transport) {
