@@ -13,6 +13,7 @@ int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape): only me
   microlane::AddEval(app);
   microlane::AddAccuracy(app, exit_code);
   microlane::AddBench(app);
+  microlane::AddQuadrature(app);
   microlane::AddReport(app);
   try {
     app.parse(argc, argv);

@@ -766,6 +766,30 @@ void OpaqueSurface(const float* in, float* out, Transport transport) {
   }
 }
 
+// Heitz 2014 Eq. 31 by normals from D cos at the midpoints of a grid of random numbers, as many as the kernel
+// takes. They are other normals than the kernel's, so what is between the two is mostly the error of this
+// rule.
+template <class Distribution, std::size_t kKernel>
+void DiffuseSurface(const float* in, float* out, Transport) {
+  constexpr DielectricQuantity::Joint kJoint =
+      kDiffuseQuantities[PlaceOfDiffuseKernel(kKernel).quantity].joint;
+  const Distribution distribution = Distribution::Make(in + 6);
+  const Vec3 wi = Load(in), wo = Load(in + 3);
+  out[0] = 0;
+  if (wi.z * wo.z <= 0) return;
+  const int order = static_cast<int>(in[8]);
+  const float side = wi.z < 0 ? -1.f : 1.f, n = static_cast<float>(order);
+  float sum = 0;
+  for (int j = 0; j < order; ++j) {
+    for (int k = 0; k < 3 * order; ++k) {
+      const Vec3 wm = distribution.SampleNormal((static_cast<float>(j) + 0.5f) / n,
+                                                (static_cast<float>(k) + 0.5f) / (3 * n));
+      sum += std::max(0.f, side * Dot(wi, wm)) * std::max(0.f, side * Dot(wo, wm)) / CosTheta(wm);
+    }
+  }
+  out[0] = Masking<kJoint>(distribution, wi, wo, {0, 0, 1}) * sum / (3 * n * n * kPi * AbsCosTheta(wi));
+}
+
 void Exp(const float* in, float* out, Transport) { out[0] = std::exp(in[0]); }
 void NegLog1m(const float* in, float* out, Transport) { out[0] = -std::log(1 - in[0]); }
 void SinCos2Pi(const float* in, float* out, Transport) {
@@ -1052,6 +1076,14 @@ constexpr void AddReflectors(KernelTable<Batch>& table) {
   AddReflectors<Distribution>(table, std::make_index_sequence<NumReflectorKernels(Distribution::kNormals)>());
 }
 
+template <class Distribution, std::size_t... kQuantity>
+constexpr void AddDiffuse(KernelTable<Batch>& table, std::index_sequence<kQuantity...>) {
+  constexpr std::size_t kFirst = DiffuseKernel(Distribution::kNormals, 0);
+  ((table[kFirst + kQuantity] = {Loop<kFirst + kQuantity, DiffuseSurface<Distribution, kFirst + kQuantity>>,
+                                 true}),
+   ...);
+}
+
 constexpr KernelTable<Batch> Resolve() {
   KernelTable<Batch> table{};
   for (const Entry& entry : kEntries) table[entry.kernel] = {entry.batch, true};
@@ -1062,6 +1094,8 @@ constexpr KernelTable<Batch> Resolve() {
   AddReflectors<Ggx>(table);
   AddReflectors<Beckmann>(table);
   AddReflectors<Phong>(table);
+  AddDiffuse<Ggx>(table, std::make_index_sequence<NumDiffuseKernels(Normals::kGgx)>());
+  AddDiffuse<Beckmann>(table, std::make_index_sequence<NumDiffuseKernels(Normals::kBeckmann)>());
   return table;
 }
 

@@ -75,6 +75,7 @@ class Lanes {
                : name == "x"        ? x_
                : name == "a"        ? a_
                : name == "gamma"    ? 1.6 + a_
+               : name == "order"    ? static_cast<double>(kWorkloadOrder)
                : name == "Lambda_i" ? a_
                : name == "Lambda_o" ? alpha_x_ * a_
                                     : alpha_x_;
@@ -126,7 +127,7 @@ Workload::Workload(std::size_t kernel, std::size_t n, Parameters parameters) : n
   const Names inputs = Split(kKernels[kernel].inputs);
   stored_ = Split(kKernels[kernel].outputs).count;
   const bool uniform = parameters == Parameters::kUniform;
-  loaded_ = uniform ? inputs.per_lane : inputs.count;
+  loaded_ = uniform ? inputs.per_lane : inputs.columns;
 
   // Arrays start on cache lines, and no two at the same place of a page.
   const std::size_t arrays = inputs.count + stored_, stride = (n + 15) / 16 * 16 + 80;
@@ -140,6 +141,10 @@ Workload::Workload(std::size_t kernel, std::size_t n, Parameters parameters) : n
     } else {
       call_.out[k - inputs.count] = array;
     }
+  }
+  if (inputs.columns < inputs.count) {
+    rule_ = std::make_unique<QuadratureRule>(kWorkloadOrder);
+    call_.rule = rule_.get();
   }
   Lanes lanes(kernel);
   for (std::size_t i = 0; i < n; ++i) {

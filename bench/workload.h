@@ -9,10 +9,13 @@
 
 #include "microlane/kernel_list.h"
 #include "microlane/packets.h"
+#include "microlane/quadrature.h"
 
 namespace microlane {
 
 enum class Parameters { kPerLane, kUniform };
+
+inline constexpr int kWorkloadOrder = 4;  // of quadratures
 
 // One batch of one kernel. Roughness is log-uniform in 0.01 to 1; eta lies in 1.2 to 2.5, or is the inverse
 // of such; wi is on either side; the normal is drawn from the distribution, and wo is wi mirrored or
@@ -34,6 +37,7 @@ class Workload {
 
   std::size_t n_, loaded_, stored_;
   std::unique_ptr<float, Free> memory_;
+  std::unique_ptr<QuadratureRule> rule_;
   Call<float> call_;
 };
 

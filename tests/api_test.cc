@@ -156,6 +156,24 @@ void AppendReflectors(std::vector<Row<T>>& rows, std::index_sequence<kPlace...>)
    ...);
 }
 
+// The typed function of a kernel of a diffuse surface, with the first lane's order.
+template <class T, std::size_t kKernel>
+void RunDiffuse(Arguments<T>& a) {
+  constexpr DiffuseKernelPlace place = PlaceOfDiffuseKernel(kKernel);
+  constexpr JointMasking masking = kDiffuseQuantities[place.quantity].joint == DielectricQuantity::kSeparable
+                                       ? JointMasking::kSeparable
+                                       : JointMasking::kHeightCorrelated;
+  const QuadratureRule rule(static_cast<double>(a.in[8][0]));
+  RoughDiffuseCalls<place.normals>::Eval(a.n, a.Direction(0), a.Direction(3), {a.Value(6), a.Value(7)}, rule,
+                                         a.Out(0), a.accuracy, masking);
+}
+
+template <class T, std::size_t... kPlace>
+void AppendDiffuse(std::vector<Row<T>>& rows, std::index_sequence<kPlace...>) {
+  (rows.push_back({kKernels[kFirstDiffuseKernel + kPlace].id, RunDiffuse<T, kFirstDiffuseKernel + kPlace>}),
+   ...);
+}
+
 template <Normals kNormals>
 using NormalCallsOf = std::conditional_t<kNormals == Normals::kGgx, ggx,
                                          std::conditional_t<kNormals == Normals::kBeckmann, beckmann, phong>>;
@@ -275,6 +293,7 @@ const std::vector<Row<T>>& Rows() {
     AppendDielectrics<T, Normals::kPhong>(
         all, std::make_index_sequence<NumDielectricQuantities(Normals::kPhong)>());
     AppendReflectors(all, std::make_index_sequence<kNumReflectorKernels>());
+    AppendDiffuse(all, std::make_index_sequence<kNumDiffuseKernels>());
     return all;
   }();
   return rows;
@@ -294,6 +313,7 @@ Arguments<T> RandomArguments(const Names& inputs, std::size_t n, bool uniform, s
     for (std::size_t i = 0; i < kLanes; ++i) {
       double value = input.low + (input.high - input.low) * unit(random);
       if (input.low > 0) value = input.low * std::pow(input.high / input.low, unit(random));
+      if (name == "order") value = 3;
       if (name == "exponent") value = std::pow(2e10, unit(random)) - 1;
       if (name.back() == 'x' && name.size() <= 3) value = normal(random);
       if ((name.back() == 'y' || name.back() == 'z') && name.size() <= 3) value = normal(random);

@@ -52,6 +52,7 @@ enum Field : int {
   kA,
   kMu,
   kGamma,
+  kOrder,
   kNumFields
 };
 constexpr std::string_view kFieldNames[] = {
@@ -59,7 +60,7 @@ constexpr std::string_view kFieldNames[] = {
     "wiz",     "wox",  "woy",    "woz",    "cos_i",     "cos_o",     "alpha",     "alpha_x",
     "alpha_y", "r_xy", "mean_x", "mean_y", "moment_xx", "moment_yy", "moment_xy", "exponent",
     "eta",     "n",    "kappa",  "f0",     "Lambda_i",  "Lambda_o",  "u1",        "u2",
-    "u3",      "x",    "a",      "mu",     "gamma"};
+    "u3",      "x",    "a",      "mu",     "gamma",     "order"};
 static_assert(std::size(kFieldNames) == kNumFields && std::size(kInputs) == kNumFields,
               "one field per input");
 
@@ -254,6 +255,7 @@ double Fit(Field field, double x, Values values) {
   const Input& input = kInputs[field];
   if (values == Values::kFloats) x = static_cast<float>(x);
   if (field == kU1 || field == kU2 || field == kU3) return std::min(std::max(x, 0.0), kLargestU);
+  if (field == kOrder) x = std::round(x);
   if (IsCosine(field) && std::abs(x) < kSmallestCosine) {
     return std::copysign(static_cast<double>(static_cast<float>(kSmallestCosine)), x);
   }
@@ -267,11 +269,13 @@ double Fit(Field field, double x, Values values) {
 
 class SceneMaker {
  public:
-  SceneMaker(const Shape& shape, Random& random, Values values)
-      : shape_(shape), random_(random), values_(values) {}
+  // order: of the quadrature, which the scene does not draw.
+  SceneMaker(const Shape& shape, Random& random, Values values, double order)
+      : shape_(shape), random_(random), values_(values), order_(order) {}
 
   Scene Make() {
     scene_.fill(0);
+    scene_[kOrder] = order_;
     DrawRoughness();
     scene_[kEta] = Fit(kEta, Eta(), values_);
     scene_[kN] = ConductorIndex();
@@ -586,6 +590,7 @@ class SceneMaker {
   const Shape& shape_;
   Random& random_;
   const Values values_;
+  const double order_;
   Scene scene_;
 };
 
@@ -616,6 +621,7 @@ constexpr double kGridKappas[] = {0, 1e-20, 1e-7, 1e-4, 0.01, 0.3, 1, 3, 10, 20}
 constexpr double kGridF0[] = {0, 1e-6, 0.04, 0.3, 0.9, 1 - 1e-7, 1};
 constexpr double kGridLambdas[] = {0,   1e-40, 1e-8, 1e-3,           0.1, 0.5, 1, 3, 100,
                                    1e7, 1e19,  1e37, 0x1.fffffep+127};
+constexpr double kGridOrders[] = {1, 2, 3, 4, 7};
 constexpr double kGridU[] = {0,   0x1p-32, 0x1p-24, 0.05, 0.125, 0.25,     0.4,
                              0.5, 0.7,     0.75,    0.9,  0.999, kLargestU};
 
@@ -696,6 +702,7 @@ Scene GridScene(const Shape& shape, Digits& digits) {
   take(kU1, kGridU);
   take(kU2, kGridU);
   take(kU3, kGridU);
+  take(kOrder, kGridOrders);
   take(kCosI, kGridCosines);
   take(kCosO, kGridCosines);
   if (shape.has[kX]) scene[kX] = -104 + 192.0 / 4096 * static_cast<double>(digits.Take(4097));
@@ -772,6 +779,7 @@ class ExtremeMaker {
     scene[kA] = 1;
     scene[kMu] = 1;
     scene[kGamma] = 2.5;
+    scene[kOrder] = 3;
     return scene;
   }
 
@@ -1311,6 +1319,14 @@ class ExtremeMaker {
   std::set<std::pair<std::string_view, Point>> seen_;
 };
 
+// One order for some lanes that follow each other, as a call takes it for all: mostly low, for a sum has 3
+// order^2 terms.
+double OrderOf(std::uint64_t seed, std::uint64_t index) {
+  Random random(seed ^ 0x0DE4, index / 32);
+  const double u = random.Uniform();
+  return u < 0.9 ? 1 + random.Index(5) : u < 0.985 ? 6 + random.Index(4) : 10 + random.Index(23);
+}
+
 }  // namespace
 
 RandomPoints::RandomPoints(std::size_t kernel, std::uint64_t seed, Values values)
@@ -1319,7 +1335,7 @@ RandomPoints::RandomPoints(std::size_t kernel, std::uint64_t seed, Values values
 Point RandomPoints::operator()(std::uint64_t index) const {
   Random random(seed_, index);
   const Shape& shape = Shapes()[kernel_];
-  return Cut(shape, SceneMaker(shape, random, values_).Make(), values_);
+  return Cut(shape, SceneMaker(shape, random, values_, OrderOf(seed_, index)).Make(), values_);
 }
 
 std::vector<Point> GridPoints(std::size_t kernel, std::size_t count) {

@@ -19,11 +19,14 @@
 #include "microlane/masking-inl.h"
 #include "microlane/phong-inl.h"
 #include "src/distribution_kernels-inl.h"
+#include "src/rough_diffuse_kernels-inl.h"
 #include "src/rough_surface_kernels-inl.h"
 
 #ifndef MICROLANE_TESTS_REASSOCIATED_CASE
 #define MICROLANE_TESTS_REASSOCIATED_CASE
 namespace microlane {
+constexpr int kOrder = 3;  // of quadratures
+
 struct Case {
   std::string_view id;
   void (*run)(const float* const* in, float* const* out, size_t n);
@@ -175,12 +178,16 @@ using OpaqueCase =
     RoughReflectorKernel<Dist, ReflectorKernel(
                                    {kNormals, kReflector, FindReflectorQuantity(kWhat, kJoint, kVisible)})>;
 
+template <class Dist, class Radius, Normals kNormals>
+using DiffuseCase = RoughDiffuseKernel<Dist, Radius, kNormals, 0>;
+
 // K over whole vectors; n is a multiple of every vector's lanes.
 template <class K, size_t... kIn>
 void OverVectors(const float* const* in, float* const* out, size_t n, std::index_sequence<kIn...>) {
   using D = hn::ScalableTag<float>;
   const D d;
-  const Options<D> options{RadianceMask(d, Transport::kRadiance)};
+  static const QuadratureRule rule(kOrder);
+  const Options<D> options{RadianceMask(d, Transport::kRadiance), &rule};
   for (size_t i = 0; i < n; i += hn::Lanes(d)) {
     Vec<D> w[6] = {hn::Zero(d), hn::Zero(d), hn::Zero(d), hn::Zero(d), hn::Zero(d), hn::Zero(d)};
     const Outputs<D> outputs{w[0], w[1], w[2], w[3], w[4], w[5]};
@@ -254,7 +261,8 @@ Cases CasesOnTarget() {
       OpaqueCase<Ggx, ggx, Reflector::kConductor, DielectricQuantity::kSample, false,
                  DielectricQuantity::kVCavity>,
       OpaqueCase<Beckmann, beckmann, Reflector::kConductor, DielectricQuantity::kEval>,
-      OpaqueCase<Phong, phong, Reflector::kSchlick, DielectricQuantity::kEval>>();
+      OpaqueCase<Phong, phong, Reflector::kSchlick, DielectricQuantity::kEval>,
+      DiffuseCase<Ggx, GgxRadius, ggx>, DiffuseCase<Beckmann, BeckmannRadius, beckmann>>();
 }
 
 }  // namespace
@@ -288,6 +296,10 @@ std::vector<Point> PointsOf(std::size_t kernel) {
   for (std::size_t i = 0; i < points.size(); ++i) points[i] = random_points(i);
   for (const ExtremeCase& extreme : ExtremeCases(kernel)) points.push_back(extreme.in);
   points.resize(points.size() / 64 * 64);
+  const Names inputs = Split(kKernels[kernel].inputs);
+  for (Point& point : points) {
+    if (inputs.columns < inputs.count) point[inputs.columns] = kOrder;
+  }
   return points;
 }
 

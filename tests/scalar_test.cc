@@ -163,6 +163,7 @@ constexpr ScalarBound FindModelBound(Normals normals, const DielectricQuantity& 
 }
 
 constexpr ScalarBound FindBound(std::size_t kernel) {
+  if (kernel >= kFirstDiffuseKernel) return {"", 6, 64};  // Lambda of Beckmann
   if (kernel >= kFirstReflectorKernel) {
     const ReflectorKernelPlace place = PlaceOfReflectorKernel(kernel);
     return FindModelBound(place.normals, kReflectorQuantities[place.quantity]);
@@ -428,6 +429,7 @@ class Generator {
       return Chance(0.05) ? 0 : a / std::sqrt(gamma_ - 1);
     }
     if (name == "a") return Chance(0.05) ? 0 : LogUniform(Chance(0.1) ? 1e-44 : 1e-5, Chance(0.5) ? 10 : 1e4);
+    if (name == "order") return 1 + std::floor(Chance(0.05) ? 32 * Uniform() : 5 * Uniform());
     ADD_FAILURE() << "no generator for input " << name;
     return 0;
   }
@@ -577,6 +579,7 @@ TEST_P(ScalarKernel, GivesFiniteNumbersForFiniteInputs) {
                         : specials[random() % 16];
       }
       if (names.name[i] == "eta" && random() % 4 == 0) value = 1;
+      if (names.name[i] == "order") value = std::round(value);
       in[i] = value;
     }
     ExpectFinite<float>(kernel, in);

@@ -34,6 +34,11 @@ class CallBuilder {
     call_.transport = transport;
     return *this;
   }
+  // The rule must outlive the call.
+  CallBuilder& With(const QuadratureRule& rule) {
+    call_.rule = &rule;
+    return *this;
+  }
   // kKernel: index in the kernel list; code: where RunFrom finds it.
   template <std::size_t kKernel, class Code>
   void Run(const Code& code, Accuracy accuracy, std::size_t n) const {

@@ -69,7 +69,9 @@ struct Input {
 
 struct Kernel {
   std::string_view id;
-  std::string_view inputs;   // names in order; those behind '|' may be one value for the whole batch
+  // Names in order; those behind '|' may be one value for the whole batch, and those behind a second '|'
+  // belong to an object that the call takes whole (Call::rule).
+  std::string_view inputs;
   std::string_view outputs;  // names in order
   std::string_view source;   // paper and equation
   std::string_view note;     // definition where the source leaves a choice, and special values
@@ -117,6 +119,7 @@ inline constexpr Input kInputs[] = {
     {"a", 0, 32, "1 / (alpha tan(theta)), Heitz 2014"},
     {"mu", 0, 0x1p60, "1 / (alpha tan(theta) sqrt(gamma - 1))"},
     {"gamma", 1.55, 1e10, "Student-T's exponent: 2 is GGX, infinity Beckmann"},
+    {"order", 1, 32, "order of a quadrature, a whole number"},
 };
 
 inline constexpr Output kOutputs[] = {
@@ -185,6 +188,11 @@ inline constexpr std::string_view kVCavityNote =
 inline constexpr std::string_view kSampleVCavityReflectionNote =
     "m of sample_visible_normal_v_cavity of the distribution, on wi's side, wo = 2 (wi.m) m - wi. weight = f |cos(theta_o)| / pdf = F G/G1(wi) "
     "<= 1. Where wo is not on wi's side, and at wiz = 0: lobe 0, and every output 0.";
+inline constexpr std::string_view kDiffuseNote =
+    "f |cos(theta_o)| of white Lambertian facets without light from facet to facet, as a sum over 3 order^2 normals (quadrature.h), "
+    "against which the error bounds are; 0 for opposite sides and where wiz or woz is 0. Height-correlated: G = 1/(1 + Lambda_i + "
+    "Lambda_o), Heitz 99.";
+inline constexpr std::string_view kDiffuseSeparableNote = "As eval with the separable G = G1(i) G1(o), Heitz 98.";
 inline constexpr std::string_view kSampleNote =
     "wi.m > 0 on wi's side, else none; u3 < F reflects. Outside its hemisphere: lobe 0, and every output 0. "
     "weight = f |cos(theta_o)| / pdf in closed form (Walter 41).";
@@ -503,6 +511,13 @@ inline constexpr DielectricQuantity kReflectorQuantities[] = {
     {"sample_visible_separable", DielectricQuantity::kSample, true, false, DielectricQuantity::kSeparable, "Walter 2007 Eqs. 14, 23, 39; Heitz 2014 Eq. 16", kReflectorSampleVisibleNote, true},
 };
 
+// What diffuse facets give over each distribution that is a stretch of a radial one.
+inline constexpr DielectricQuantity kDiffuseQuantities[] = {
+    {"eval", DielectricQuantity::kEval, true, false, DielectricQuantity::kCorrelated, "Heitz 2014 Eqs. 31, 99", kDiffuseNote},
+    {"eval_separable", DielectricQuantity::kEval, true, false, DielectricQuantity::kSeparable, "Heitz 2014 Eqs. 31, 98", kDiffuseSeparableNote},
+};
+inline constexpr std::size_t kNumDiffuseQuantities = std::size(kDiffuseQuantities);
+
 // A distribution of normals in the models over it.
 struct ModelFamily {
   std::string_view suffix;      // of the models' ids, before the '.'
@@ -513,7 +528,7 @@ struct ModelFamily {
   Bounds reflector_value[kNumReflectors], reflector_sample[kNumReflectors];
   // NOLINTNEXTLINE(readability-redundant-member-init): rows without visible normals leave it out
   Bounds reflector_sample_v_cavity[kNumReflectors]{}, reflector_sample_visible[kNumReflectors]{},
-      sample_visible{};
+      sample_visible{}, diffuse{};
 
   constexpr const Bounds& BoundsOf(const DielectricQuantity& q) const {
     return q.what == DielectricQuantity::kSample ? (q.visible ? sample_visible : sample)
@@ -531,13 +546,15 @@ inline constexpr ModelFamily kModelFamilies[] = {
      {{1, 14, 2900, 20, 250}, {1, 23, 5000, 24, 250}, {1, 17, 5600, 22, 4000}},
      {{1, 14, 450, 16, 13}, {1, 14, 1000, 16, 13}, {1, 14, 450, 16, 13}},
      {{1, 16, 2800, 24, 4000}, {1, 16, 2800, 24, 4000}, {1, 16, 2800, 24, 4000}},
-     {{1, 24, 2800, 32, 24}, {1, 24, 3400, 32, 60}, {1, 24, 2800, 32, 24}}, {1, 24, 6500, 32, 24}},
+     {{1, 24, 2800, 32, 24}, {1, 24, 3400, 32, 60}, {1, 24, 2800, 32, 24}}, {1, 24, 6500, 32, 24},
+     {1, 14, 4200, 14, 256}},
     {"_beckmann", "alpha_x alpha_y", "Beckmann: Walter 2007 Eqs. 25, 26, 28, 29, stretched",
      {1, 19, 6500, 24, 0x1p21}, {1, 18, 6500, 24, 0x1p14}, {1, 14, 2400, 20, 4800}, {1, 24, 6500, 32, 17},
      {{1, 14, 3400, 20, 4096}, {1, 24, 5800, 24, 4500}, {1, 17, 6500, 22, 4800}},
      {{1, 14, 450, 16, 13}, {1, 14, 1000, 16, 13}, {1, 14, 450, 16, 13}},
      {{1, 16, 2800, 24, 4000}, {1, 16, 2800, 24, 4000}, {1, 16, 2800, 24, 4000}},
-     {{1, 18, 2800, 20, 26}, {1, 18, 2800, 20, 40}, {1, 18, 2800, 20, 26}}, {1, 24, 6500, 32, 24}},
+     {{1, 18, 2800, 20, 26}, {1, 18, 2800, 20, 40}, {1, 18, 2800, 20, 26}}, {1, 24, 6500, 32, 24},
+     {1, 14, 4200, 14, 512}},
     {"_phong", "exponent", "Phong: Walter 2007 Eqs. 27, 30-32",
      {1, 21, 6500, 24, 0x1p21}, {1, 20, 6500, 24, 0x1p14}, {1, 14, 2400, 20, 4200}, {1, 24, 4600, 32, 17},
      {{1, 15, 4500, 20, 4800}, {1, 24, 7000, 24, 4800}, {1, 17, 7000, 22, 4800}},
@@ -576,6 +593,9 @@ constexpr std::size_t NumReflectorQuantities(Normals normals) {
 constexpr std::size_t NumReflectorKernels(Normals normals) {
   return kNumReflectors * NumReflectorQuantities(normals);
 }
+constexpr std::size_t NumDiffuseKernels(Normals normals) {
+  return kModelFamilies[static_cast<std::size_t>(normals)].diffuse.high > 0 ? kNumDiffuseQuantities : 0;
+}
 
 // The first of a model's kernels over each distribution, from `first` on, and the end of the last.
 using FirstKernels = std::array<std::size_t, kNumModelFamilies + 1>;
@@ -590,16 +610,20 @@ constexpr std::size_t FamilyOf(std::size_t kernel, const FirstKernels& first) {
   return family;
 }
 
-// Component kernels, then distributions of normals, then rough dielectrics, then opaque surfaces.
+// Component kernels, then distributions of normals, then rough dielectrics, then opaque surfaces, then
+// diffuse ones.
 inline constexpr std::size_t kFirstDielectricKernel = kNumComponentKernels + kNumNormalKernels;
 inline constexpr FirstKernels kFirstDielectricKernels =
     MakeFirstKernels(kFirstDielectricKernel, NumDielectricQuantities);
 inline constexpr std::size_t kFirstReflectorKernel = kFirstDielectricKernels[kNumModelFamilies];
 inline constexpr FirstKernels kFirstReflectorKernels =
     MakeFirstKernels(kFirstReflectorKernel, NumReflectorKernels);
-inline constexpr std::size_t kNumKernels = kFirstReflectorKernels[kNumModelFamilies];
+inline constexpr std::size_t kFirstDiffuseKernel = kFirstReflectorKernels[kNumModelFamilies];
+inline constexpr FirstKernels kFirstDiffuseKernels = MakeFirstKernels(kFirstDiffuseKernel, NumDiffuseKernels);
+inline constexpr std::size_t kNumKernels = kFirstDiffuseKernels[kNumModelFamilies];
 inline constexpr std::size_t kNumDielectricKernels = kFirstReflectorKernel - kFirstDielectricKernel;
-inline constexpr std::size_t kNumReflectorKernels = kNumKernels - kFirstReflectorKernel;
+inline constexpr std::size_t kNumReflectorKernels = kFirstDiffuseKernel - kFirstReflectorKernel;
+inline constexpr std::size_t kNumDiffuseKernels = kNumKernels - kFirstDiffuseKernel;
 inline constexpr std::size_t kMaxInputs = 11;
 inline constexpr std::size_t kMaxOutputs = 6;
 
@@ -631,6 +655,19 @@ constexpr ReflectorKernelPlace PlaceOfReflectorKernel(std::size_t kernel) {
   const std::size_t i = kernel - kFirstReflectorKernels[family],
                     count = NumReflectorQuantities(static_cast<Normals>(family));
   return {static_cast<Normals>(family), static_cast<Reflector>(i / count), i % count};
+}
+
+// A diffuse surface's kernel: its distribution of normals and place in kDiffuseQuantities.
+struct DiffuseKernelPlace {
+  Normals normals;
+  std::size_t quantity;
+};
+constexpr std::size_t DiffuseKernel(Normals normals, std::size_t quantity) {
+  return kFirstDiffuseKernels[static_cast<std::size_t>(normals)] + quantity;
+}
+constexpr DiffuseKernelPlace PlaceOfDiffuseKernel(std::size_t kernel) {
+  const std::size_t family = FamilyOf(kernel, kFirstDiffuseKernels);
+  return {static_cast<Normals>(family), kernel - kFirstDiffuseKernels[family]};
 }
 
 // A kernel of a distribution of normals: its place in kNormalRows, and its kind of roughness.
@@ -767,6 +804,18 @@ constexpr auto MakeReflectorText() {
 }
 inline constexpr auto kReflectorText = MakeReflectorText();
 
+constexpr auto MakeDiffuseText() {
+  std::array<ModelText, kNumDiffuseKernels> text{};
+  for (std::size_t i = 0; i < kNumDiffuseKernels; ++i) {
+    const DiffuseKernelPlace place = PlaceOfDiffuseKernel(kFirstDiffuseKernel + i);
+    text[i] = MakeModelText("rough_diffuse", " | order", "",
+                            kModelFamilies[static_cast<std::size_t>(place.normals)],
+                            kDiffuseQuantities[place.quantity]);
+  }
+  return text;
+}
+inline constexpr auto kDiffuseText = MakeDiffuseText();
+
 constexpr std::array<Kernel, kNumKernels> MakeKernels() {
   constexpr std::string_view outputs[] = {"f_cos", "pdf", "f_cos pdf", "wox woy woz weight pdf lobe"};
   std::array<Kernel, kNumKernels> kernels{};
@@ -806,6 +855,11 @@ constexpr std::array<Kernel, kNumKernels> MakeKernels() {
               : q.visible                               ? family.reflector_sample_visible[reflector]
                                                         : family.reflector_sample[reflector]);
   }
+  for (std::size_t i = 0; i < kNumDiffuseKernels; ++i) {
+    const DiffuseKernelPlace place = PlaceOfDiffuseKernel(kFirstDiffuseKernel + i);
+    add_model(kFirstDiffuseKernel + i, kDiffuseText[i], kDiffuseQuantities[place.quantity], false,
+              kModelFamilies[static_cast<std::size_t>(place.normals)].diffuse);
+  }
   return kernels;
 }
 inline constexpr std::array<Kernel, kNumKernels> kKernels = MakeKernels();
@@ -814,26 +868,27 @@ inline constexpr std::array<Kernel, kNumKernels> kKernels = MakeKernels();
 struct Names {
   std::array<std::string_view, kMaxInputs> name{};
   std::size_t count = 0;
-  std::size_t per_lane = 0;  // how many stand before '|'
+  std::size_t per_lane = 0;  // how many stand before the first '|'
+  std::size_t columns = 0;   // how many stand before a second: those that a call has arrays of
 };
 
 constexpr Names Split(std::string_view text) {
   Names names;
-  bool bar = false;
+  int bars = 0;
   std::size_t i = 0;
   while (i < text.size()) {
     std::size_t end = i;
     while (end < text.size() && text[end] != ' ') ++end;
     const std::string_view word = text.substr(i, end - i);
     if (word == "|") {
-      bar = true;
-      names.per_lane = names.count;
+      (bars++ == 0 ? names.per_lane : names.columns) = names.count;
     } else if (!word.empty()) {
       names.name[names.count++] = word;
     }
     i = end + 1;
   }
-  if (!bar) names.per_lane = names.count;
+  if (bars < 1) names.per_lane = names.count;
+  if (bars < 2) names.columns = names.count;
   return names;
 }
 

@@ -11,7 +11,9 @@
 #include "microlane/material.h"          // IWYU pragma: export
 #include "microlane/packets.h"           // IWYU pragma: export
 #include "microlane/phong.h"             // IWYU pragma: export
+#include "microlane/quadrature.h"        // IWYU pragma: export
 #include "microlane/rough_dielectric.h"  // IWYU pragma: export
+#include "microlane/rough_diffuse.h"     // IWYU pragma: export
 #include "microlane/rough_reflector.h"   // IWYU pragma: export
 #include "microlane/roughness.h"         // IWYU pragma: export
 #include "microlane/targets.h"           // IWYU pragma: export

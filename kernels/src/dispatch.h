@@ -64,6 +64,8 @@ template <Normals kNormals>
 const FamilyFunction* RoughDielectricTable();
 template <Normals kNormals>
 const FamilyFunction* RoughReflectorTable();
+template <Normals kNormals>
+const FamilyFunction* RoughDiffuseTable();
 template <>
 const FamilyFunction* NormalsTable<Normals::kGgx>();
 template <>
@@ -82,6 +84,10 @@ template <>
 const FamilyFunction* RoughReflectorTable<Normals::kBeckmann>();
 template <>
 const FamilyFunction* RoughReflectorTable<Normals::kPhong>();
+template <>
+const FamilyFunction* RoughDiffuseTable<Normals::kGgx>();
+template <>
+const FamilyFunction* RoughDiffuseTable<Normals::kBeckmann>();
 
 // What CallBuilder::Run runs: the kernel of that index, of the family that the table stands for.
 template <class T>

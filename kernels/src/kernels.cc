@@ -1,11 +1,15 @@
 #include "microlane/kernels.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <string_view>
 #include <type_traits>
 #include <utility>
 
 #include "microlane/kernel_list.h"
+#include "microlane/quadrature.h"
 #include "src/dispatch.h"
 
 namespace microlane {
@@ -24,6 +28,10 @@ const FamilyFunction* OfNormals(std::size_t normals, std::index_sequence<kNormal
 
 const FamilyFunction* TableOf(std::size_t kernel) {
   constexpr auto families = std::make_index_sequence<kNumModelFamilies>();
+  if (kernel >= kFirstDiffuseKernel) {
+    return PlaceOfDiffuseKernel(kernel).normals == Normals::kGgx ? RoughDiffuseTable<Normals::kGgx>()
+                                                                 : RoughDiffuseTable<Normals::kBeckmann>();
+  }
   if (kernel >= kFirstReflectorKernel) {
     return OfNormals(static_cast<std::size_t>(PlaceOfReflectorKernel(kernel).normals), families,
                      [](auto normals) { return RoughReflectorTable<decltype(normals)::value>(); });
@@ -55,14 +63,59 @@ const FamilyFunction* Table(std::size_t kernel) {
   return tables[kernel];
 }
 
+template <class T>
+bool SameValue(T a, T b) {
+  return a == b || (std::isnan(a) && std::isnan(b));
+}
+
+template <class T>
+void RunWithRule(std::size_t kernel, Accuracy accuracy, const Call<T>& call, std::size_t n) {
+  if (call.rule->ok()) {
+    Run(CodeOf(Table(kernel), kernel), accuracy, call, n);
+  } else {
+    std::fill_n(call.out[0], n, std::numeric_limits<T>::quiet_NaN());
+  }
+}
+
+// Lanes of equal order that follow each other, with one rule.
+template <class T>
+void RunByOrder(std::size_t kernel, Accuracy accuracy, const Call<T>& call, std::size_t n) {
+  const Names inputs = Split(kKernels[kernel].inputs), outputs = Split(kKernels[kernel].outputs);
+  const T* const orders = call.in[inputs.columns];
+  const bool uniform = call.uniform[inputs.columns];
+  for (std::size_t begin = 0, end = 0; begin < n; begin = end) {
+    const T order = orders[uniform ? 0 : begin];
+    for (end = uniform ? n : begin + 1; end < n && SameValue(orders[end], order);) ++end;
+    const QuadratureRule rule(order);
+    Call<T> part = call;
+    part.rule = &rule;
+    for (std::size_t k = 0; k < inputs.columns; ++k) {
+      if (!call.uniform[k]) part.in[k] += begin;
+    }
+    for (std::size_t k = 0; k < outputs.count; ++k) part.out[k] += begin;
+    RunWithRule(kernel, accuracy, part, end - begin);
+  }
+}
+
+template <class T>
+void RunOne(std::size_t kernel, Accuracy accuracy, const Call<T>& call, std::size_t n) {
+  if (kernel < kFirstDiffuseKernel) {
+    Run(CodeOf(Table(kernel), kernel), accuracy, call, n);
+  } else if (call.rule == nullptr) {
+    RunByOrder(kernel, accuracy, call, n);
+  } else {
+    RunWithRule(kernel, accuracy, call, n);
+  }
+}
+
 }  // namespace
 
 void RunKernel(std::size_t kernel, Accuracy accuracy, const Call<float>& call, std::size_t n) {
-  Run(CodeOf(Table(kernel), kernel), accuracy, call, n);
+  RunOne(kernel, accuracy, call, n);
 }
 
 void RunKernel(std::size_t kernel, const Call<double>& call, std::size_t n) {
-  Run(CodeOf(Table(kernel), kernel), Accuracy::kStandard, call, n);
+  RunOne(kernel, Accuracy::kStandard, call, n);
 }
 
 }  // namespace microlane

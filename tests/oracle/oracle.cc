@@ -13,6 +13,7 @@
 #include "oracle/masking.h"
 #include "oracle/math.h"
 #include "oracle/phong.h"
+#include "oracle/rough_diffuse.h"
 #include "oracle/rough_reflector.h"
 #include "oracle/roughness.h"
 #include "oracle/student.h"
@@ -297,6 +298,17 @@ void OfReflector(Call& call) {
   }
 }
 
+// A kernel of a diffuse surface.
+template <std::size_t kKernel>
+void OfDiffuse(Call& call) {
+  constexpr DiffuseKernelPlace place = PlaceOfDiffuseKernel(kKernel);
+  constexpr Names inputs = Split(kKernels[kKernel].inputs);
+  const auto normals = MakeNormals<place.normals, ModelRoughness(place.normals)>(call.in + inputs.per_lane);
+  const RoughDiffuse<std::remove_const_t<decltype(normals)>> surface{
+      normals, static_cast<int>(call.in[inputs.columns]), MaskingOf(kDiffuseQuantities[place.quantity])};
+  call.out[0] = surface.EvalCos(Direction(call.in), Direction(call.in + 3));
+}
+
 struct Entry {
   std::string_view id;
   Function function;
@@ -453,6 +465,11 @@ constexpr void AddReflectors(std::array<Resolved, kNumKernels>& table, std::inde
   ((table[kFirstReflectorKernel + kPlace].function = OfReflector<kFirstReflectorKernel + kPlace>), ...);
 }
 
+template <std::size_t... kPlace>
+constexpr void AddDiffuse(std::array<Resolved, kNumKernels>& table, std::index_sequence<kPlace...>) {
+  ((table[kFirstDiffuseKernel + kPlace].function = OfDiffuse<kFirstDiffuseKernel + kPlace>), ...);
+}
+
 constexpr std::array<Resolved, kNumKernels> Resolve() {
   std::array<Resolved, kNumKernels> table{};
   for (std::size_t k = 0; k < kNumKernels; ++k) {
@@ -474,6 +491,7 @@ constexpr std::array<Resolved, kNumKernels> Resolve() {
   AddDielectrics<Normals::kPhong>(table,
                                   std::make_index_sequence<NumDielectricQuantities(Normals::kPhong)>());
   AddReflectors(table, std::make_index_sequence<kNumReflectorKernels>());
+  AddDiffuse(table, std::make_index_sequence<kNumDiffuseKernels>());
   return table;
 }
 

@@ -3,6 +3,7 @@
 #define MICROLANE_SCALAR_EVALUATE_H_
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <string_view>
 #include <type_traits>
@@ -18,6 +19,7 @@
 #include "microlane/scalar/math.h"
 #include "microlane/scalar/phong.h"
 #include "microlane/scalar/rough_dielectric.h"
+#include "microlane/scalar/rough_diffuse.h"
 #include "microlane/scalar/rough_reflector.h"
 #include "microlane/scalar/roughness.h"
 #include "microlane/scalar/sheared.h"
@@ -209,6 +211,27 @@ void RunReflector(const Real* in, Real* out, Transport) {
   } else {
     Store(surface.Sample(Load(in), in[3], in[4]), out);
   }
+}
+
+template <Masking masking, template <class> class Distribution, class Real>
+RoughDiffuse<Distribution, Real, masking> MakeDiffuse(const Distribution<Real>& distribution, int order) {
+  return {distribution, order};
+}
+
+// A kernel of a diffuse surface. NaN where the order is none.
+template <class Real, std::size_t kKernel>
+void RunDiffuse(const Real* in, Real* out, Transport) {
+  constexpr DiffuseKernelPlace place = PlaceOfDiffuseKernel(kKernel);
+  constexpr Names inputs = Split(kKernels[kKernel].inputs);
+  constexpr Masking masking = MaskingOf(kDiffuseQuantities[place.quantity]);
+  const Real order = in[inputs.columns];
+  constexpr Input range = FindInput("order");
+  if (!(order >= Real(range.low) && order <= Real(range.high) && order == std::floor(order))) {
+    out[0] = kNan<Real>;
+    return;
+  }
+  const auto normals = MakeNormals<place.normals, ModelRoughness(place.normals)>(in + inputs.per_lane);
+  out[0] = MakeDiffuse<masking>(normals, static_cast<int>(order)).Eval(Load(in), Load(in + 3));
 }
 
 template <class Real>
@@ -404,6 +427,11 @@ constexpr void AddReflectors(KernelTable<Function<Real>>& table, std::index_sequ
   ((table[kFirstReflectorKernel + kPlace] = {RunReflector<Real, kFirstReflectorKernel + kPlace>, true}), ...);
 }
 
+template <class Real, std::size_t... kPlace>
+constexpr void AddDiffuse(KernelTable<Function<Real>>& table, std::index_sequence<kPlace...>) {
+  ((table[kFirstDiffuseKernel + kPlace] = {RunDiffuse<Real, kFirstDiffuseKernel + kPlace>, true}), ...);
+}
+
 // Functions in the order of kKernels; null where the list has an entry that this file has not.
 template <class Real>
 constexpr KernelTable<Function<Real>> Resolve() {
@@ -414,6 +442,7 @@ constexpr KernelTable<Function<Real>> Resolve() {
   AddDielectrics<Normals::kBeckmann>(table);
   AddDielectrics<Normals::kPhong>(table);
   AddReflectors(table, std::make_index_sequence<kNumReflectorKernels>());
+  AddDiffuse(table, std::make_index_sequence<kNumDiffuseKernels>());
   return table;
 }
 

@@ -1,0 +1,83 @@
+#include "microlane/quadrature.h"
+
+#include <cmath>
+
+#include "microlane/kernel_list.h"
+#include "microlane/material.h"
+
+namespace microlane {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+static_assert(FindInput("order").low == 1 && FindInput("order").high == QuadratureRule::kMaxOrder);
+
+std::string CheckOrder(double order) {
+  std::string error = CheckParameter("order", order);
+  if (error.empty() && order != std::floor(order)) {
+    error = "order = " + std::to_string(order) + " is not a whole number in [1, 32]";
+  }
+  return error;
+}
+
+// Node t and weight of Gauss-Legendre on [0, 1]; t = y/2 of the k-th root 1 - y of the Legendre polynomial.
+// The recurrence of the differences P_j - P_(j-1) keeps the digits of a small y.
+void LegendreNode(std::size_t count, std::size_t k, double& t, double& weight) {
+  const double n = static_cast<double>(count);
+  const double angle = kPi * (static_cast<double>(k) + 0.75) / (n + 0.5), half_sine = std::sin(angle / 2);
+  double y = 2 * half_sine * half_sine, last = 1;
+  for (int step = 0; step < 6; ++step) {
+    double p = 1, difference = 0;
+    for (std::size_t j = 0; j < count; ++j) {
+      const double i = static_cast<double>(j);
+      last = p;
+      difference = (i * difference - (2 * i + 1) * y * p) / (i + 1);
+      p += difference;
+    }
+    y += p * y * (2 - y) / (n * (last - (1 - y) * p));
+  }
+  t = y / 2;
+  weight = y * (2 - y) / (n * n * last * last);
+}
+
+}  // namespace
+
+QuadratureRule::QuadratureRule(double order) : error_(CheckOrder(order)) {
+  constexpr std::size_t kRows = static_cast<std::size_t>(QuadratureRow::kNumRows);
+  if (!ok()) return;
+  order_ = static_cast<std::size_t>(order);
+  beckmann_radius_ = std::sqrt(1 + 1.5 * order);
+  doubles_.resize(kRows * order_);
+  const auto put = [&](QuadratureRow row, std::size_t i, double value) {
+    doubles_[static_cast<std::size_t>(row) * order_ + i] = value;
+  };
+  for (std::size_t k = 0; k < (order_ + 1) / 2; ++k) {
+    double below, weight;
+    LegendreNode(order_, k, below, weight);
+    const std::size_t mirrored = order_ - 1 - k;
+    const bool middle = mirrored == k;
+    if (middle) below = 0.5;
+    const double small = std::tan(kPi / 2 * below);
+    for (const bool upper : {false, true}) {
+      const std::size_t i = upper ? mirrored : k;
+      const double t = upper ? 1 - below : below, rest = upper ? below : 1 - below;
+      const double p = middle ? 1 : upper ? 1 / small : small, r = t * beckmann_radius_;
+      const double of_p = weight * p * (kPi / 2) * (1 + p * p);
+      put(QuadratureRow::kFirst, i, rest * rest);
+      put(QuadratureRow::kMiddle, i, 2 * t * rest);
+      put(QuadratureRow::kLast, i, t * t);
+      put(QuadratureRow::kWeight, i, weight);
+      put(QuadratureRow::kGgxRadius, i, p);
+      put(QuadratureRow::kGgxWeight, i, of_p);
+      put(QuadratureRow::kGgxFree, i, of_p / ((1 + p * p) * (1 + p * p)));
+      put(QuadratureRow::kBeckmannRadius, i, r);
+      put(QuadratureRow::kBeckmannFree, i, weight * r * beckmann_radius_ * std::exp(-r * r));
+      put(QuadratureRow::kBeckmannPart, i, t);
+      put(QuadratureRow::kBeckmannRest, i, rest);
+      put(QuadratureRow::kBeckmannWeight, i, weight * t);
+    }
+  }
+  for (const double value : doubles_) floats_.push_back(static_cast<float>(value));
+}
+
+}  // namespace microlane
