@@ -38,7 +38,9 @@ struct SchlickFacets {
     if (x <= 0) return f0 > 0 ? Real(1) : Infinity();
     return 1 + 5 * (1 - f0) * pow(x, 4) / Reflectance(c);
   }
-  Real Curvature(const Real& c) const { return Conditioning(c) - 1; }
+  // At least |dF/dc| / F: a change of c by F^(1/5) changes F by as much as itself, and by no less where c
+  // counts as 1.
+  Real Curvature(const Real& c) const { return 5 / pow(Reflectance(c), Real(1) / 5); }
 };
 
 // |dF/dc| / F.
