@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "command.h"
@@ -21,7 +22,6 @@ namespace microlane {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr std::size_t kInputs = 8;  // wi, wo, alpha_x, alpha_y
 constexpr int kOrders[] = {1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 24};
 
 struct Request {
@@ -30,11 +30,16 @@ struct Request {
   double ratio = 1, seconds = 0.03;
 };
 
-// Pairs of directions: from the normal to 85 degrees each, at every azimuth.
+// Index 1.5, gold at 633 nm, f0 = 0.04.
+double FacetParameter(std::string_view name) {
+  return name == "eta" ? 1.5 : name == "n" ? 0.18 : name == "kappa" ? 3.4 : 0.04;
+}
+
+// Pairs of directions, wi or v and wo: from the normal to 85 degrees each, at every azimuth.
 template <class T>
 class Pairs {
  public:
-  Pairs(double alpha_x, double alpha_y) {
+  Pairs(std::size_t kernel, double alpha_x, double alpha_y) : kernel_(kernel) {
     constexpr double kDegrees[] = {0, 20, 45, 60, 75, 85};
     constexpr double kAzimuths[] = {0, 10, 45, 90, 135, 170, 180, 200, 300};
     for (const double turned : {0.0, 0.7, 1.4}) {
@@ -42,27 +47,31 @@ class Pairs {
         for (const double theta_o : kDegrees) {
           for (const double azimuth : kAzimuths) {
             Append(0, theta_i, turned);
-            Append(3, theta_o, turned + azimuth * (kPi / 180));
+            if (inputs_.per_lane > 3) Append(3, theta_o, turned + azimuth * (kPi / 180));
           }
         }
       }
     }
-    in_[6].assign(size(), static_cast<T>(alpha_x));
-    in_[7].assign(size(), static_cast<T>(alpha_y));
+    for (std::size_t k = inputs_.per_lane; k < inputs_.columns; ++k) {
+      const std::string_view name = inputs_.name[k];
+      in_[k].assign(size(), static_cast<T>(name == "alpha_x"   ? alpha_x
+                                           : name == "alpha_y" ? alpha_y
+                                                               : FacetParameter(name)));
+    }
     out_.resize(size());
   }
 
   std::size_t size() const { return in_[0].size(); }
 
-  std::vector<T>& Eval(std::size_t kernel, const QuadratureRule& rule, Accuracy accuracy) {
+  std::vector<T>& Eval(const QuadratureRule& rule, Accuracy accuracy) {
     Call<T> call;
-    for (std::size_t k = 0; k < kInputs; ++k) call.in[k] = in_[k].data();
+    for (std::size_t k = 0; k < inputs_.columns; ++k) call.in[k] = in_[k].data();
     call.out[0] = out_.data();
     call.rule = &rule;
     if constexpr (sizeof(T) == 4) {
-      RunKernel(kernel, accuracy, call, size());
+      RunKernel(kernel_, accuracy, call, size());
     } else {
-      RunKernel(kernel, call, size());
+      RunKernel(kernel_, call, size());
     }
     return out_;
   }
@@ -75,18 +84,25 @@ class Pairs {
     in_[first + 2].push_back(static_cast<T>(std::cos(theta)));
   }
 
-  std::array<std::vector<T>, kInputs> in_;
+  std::size_t kernel_;
+  Names inputs_ = Split(kKernels[kernel_].inputs);
+  std::array<std::vector<T>, kMaxInputs> in_;
   std::vector<T> out_;
 };
 
+int NormalsPerOrder2(std::size_t kernel) {
+  if (kernel < kFirstMeanFresnelKernel) return 3;
+  return PlaceOfMeanFresnelKernel(kernel).normals == Normals::kGgx ? 2 : 1;
+}
+
 void PrintKernel(std::size_t kernel, double alpha, const Request& request) {
-  Pairs<double> doubles(alpha, alpha * request.ratio);
-  Pairs<float> floats(alpha, alpha * request.ratio);
+  Pairs<double> doubles(kernel, alpha, alpha * request.ratio);
+  Pairs<float> floats(kernel, alpha, alpha * request.ratio);
   const std::vector<double> exact =
-      doubles.Eval(kernel, QuadratureRule(QuadratureRule::kMaxOrder), Accuracy::kStandard);
+      doubles.Eval(QuadratureRule(QuadratureRule::kMaxOrder), Accuracy::kStandard);
   for (const int order : kOrders) {
     const QuadratureRule rule(order);
-    const std::vector<double>& got = doubles.Eval(kernel, rule, Accuracy::kStandard);
+    const std::vector<double>& got = doubles.Eval(rule, Accuracy::kStandard);
     double sum = 0, largest = 0;
     for (std::size_t i = 0; i < exact.size(); ++i) {
       const double error = std::abs(got[i] / exact[i] - 1);
@@ -94,9 +110,10 @@ void PrintKernel(std::size_t kernel, double alpha, const Request& request) {
       largest = std::max(largest, error);
     }
     fmt::print("{:<32} {:>5g} {:>5} {:>7} {:>9.1e} {:>9.1e}", kKernels[kernel].id, alpha, order,
-               3 * order * order, std::sqrt(sum / static_cast<double>(exact.size())), largest);
+               NormalsPerOrder2(kernel) * order * order, std::sqrt(sum / static_cast<double>(exact.size())),
+               largest);
     for (const Accuracy accuracy : kAccuracies) {
-      const Timing time = Measure(request.seconds, [&] { floats.Eval(kernel, rule, accuracy); });
+      const Timing time = Measure(request.seconds, [&] { floats.Eval(rule, accuracy); });
       fmt::print(" {:>8}", Short(time.min / static_cast<double>(floats.size())));
     }
     fmt::print("\n");
@@ -112,8 +129,7 @@ void Run(const Request& request) {
   for (const Accuracy accuracy : kAccuracies) fmt::print(" {:>8}", Name(accuracy));
   fmt::print("\n");
   for (std::size_t kernel = kFirstDiffuseKernel; kernel < kNumKernels; ++kernel) {
-    if (kDiffuseQuantities[PlaceOfDiffuseKernel(kernel).quantity].joint != DielectricQuantity::kCorrelated)
-      continue;
+    if (!TakesRule(kernel) || kKernels[kernel].id.find("separable") != std::string_view::npos) continue;
     for (const double alpha : request.alphas) PrintKernel(kernel, alpha, request);
   }
 }
@@ -139,7 +155,7 @@ void AddQuadrature(CLI::App& app) {
       "Errors are those of double lanes over 972 pairs of directions, each from the normal to 85 degrees; "
       "the order "
       "is that of\n"
-      "the rule, of 3 order^2 normals.");
+      "the rule. Facets are of index 1.5, of gold, or of f0 = 0.04.");
   quadrature->callback([request] { Run(*request); });
 }
 

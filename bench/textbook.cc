@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "microlane/kernel_list.h"
+#include "microlane/mean_fresnel_fit.h"
 
 // NOLINTBEGIN(clang-analyzer-core*): the analyser enters no loop more than four times, so that Loop's inputs
 // behind the fourth have no value to it.
@@ -790,6 +791,47 @@ void DiffuseSurface(const float* in, float* out, Transport) {
   out[0] = Masking<kJoint>(distribution, wi, wo, {0, 0, 1}) * sum / (3 * n * n * kPi * AbsCosTheta(wi));
 }
 
+// Heitz 2014 Eq. 105 by visible normals at the midpoints of a grid of random numbers, as many as the kernel
+// takes.
+template <class Distribution, std::size_t kKernel>
+void MeanFresnel(const float* in, float* out, Transport) {
+  constexpr std::size_t kQuantity = PlaceOfMeanFresnelKernel(kKernel).quantity;
+  if constexpr (kQuantity == MeanFresnelQuantity::kCosine) {
+    const auto& k = Distribution::kNormals == Normals::kGgx ? kGgxCosineFit : kBeckmannCosineFit;
+    const float c = std::abs(in[0]), alpha = std::min(2.f, in[1]);
+    const float r = std::sqrt(c * c + alpha * alpha * std::max(0.f, 1 - c * c));
+    const float x = 2 * c / r - 1, y = 2 * std::sqrt(alpha / 2) - 1;
+    float sum = 0;
+    for (int i = 6; i >= 0; --i) {
+      float row = 0;
+      for (int j = 6; j >= 0; --j) row = row * y + static_cast<float>(k[i][j]);
+      sum = sum * x + row;
+    }
+    out[0] = std::min(1.f, r / (1 + alpha) * sum);
+  } else {
+    constexpr std::size_t kColumns = Split(kKernels[kKernel].inputs).columns;
+    const auto fresnel = [&] {
+      if constexpr (kQuantity == MeanFresnelQuantity::kDielectric) return DielectricFresnel{in[5]};
+      if constexpr (kQuantity == MeanFresnelQuantity::kConductor) return ConductorFresnel(in + 5);
+      if constexpr (kQuantity == MeanFresnelQuantity::kSchlick) return SchlickFresnel(in + 5);
+    }();
+    const Distribution distribution = Distribution::Make(in + 3);
+    const Vec3 v = Load(in), up = v.z < 0 ? -v : v;
+    const int order = static_cast<int>(in[kColumns]),
+              azimuths = Distribution::kNormals == Normals::kGgx ? 2 : 1;
+    const float n = static_cast<float>(order), m = static_cast<float>(azimuths * order);
+    float sum = 0;
+    for (int j = 0; j < order; ++j) {
+      for (int l = 0; l < azimuths * order; ++l) {
+        const Vec3 wm = distribution.SampleVisibleNormal(up, (static_cast<float>(j) + 0.5f) / n,
+                                                         (static_cast<float>(l) + 0.5f) / m);
+        sum += fresnel(Dot(up, wm));
+      }
+    }
+    out[0] = sum / (n * m);
+  }
+}
+
 void Exp(const float* in, float* out, Transport) { out[0] = std::exp(in[0]); }
 void NegLog1m(const float* in, float* out, Transport) { out[0] = -std::log(1 - in[0]); }
 void SinCos2Pi(const float* in, float* out, Transport) {
@@ -1084,6 +1126,14 @@ constexpr void AddDiffuse(KernelTable<Batch>& table, std::index_sequence<kQuanti
    ...);
 }
 
+template <class Distribution, std::size_t... kQuantity>
+constexpr void AddMeanFresnel(KernelTable<Batch>& table, std::index_sequence<kQuantity...>) {
+  constexpr std::size_t kFirst = MeanFresnelKernel(Distribution::kNormals, 0);
+  ((table[kFirst + kQuantity] = {Loop<kFirst + kQuantity, MeanFresnel<Distribution, kFirst + kQuantity>>,
+                                 true}),
+   ...);
+}
+
 constexpr KernelTable<Batch> Resolve() {
   KernelTable<Batch> table{};
   for (const Entry& entry : kEntries) table[entry.kernel] = {entry.batch, true};
@@ -1096,6 +1146,8 @@ constexpr KernelTable<Batch> Resolve() {
   AddReflectors<Phong>(table);
   AddDiffuse<Ggx>(table, std::make_index_sequence<NumDiffuseKernels(Normals::kGgx)>());
   AddDiffuse<Beckmann>(table, std::make_index_sequence<NumDiffuseKernels(Normals::kBeckmann)>());
+  AddMeanFresnel<Ggx>(table, std::make_index_sequence<kNumMeanFresnelQuantities>());
+  AddMeanFresnel<Beckmann>(table, std::make_index_sequence<kNumMeanFresnelQuantities>());
   return table;
 }
 

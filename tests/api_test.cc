@@ -174,6 +174,35 @@ void AppendDiffuse(std::vector<Row<T>>& rows, std::index_sequence<kPlace...>) {
    ...);
 }
 
+// The typed function of a mean over visible normals, with the first lane's order.
+template <class T, std::size_t kKernel>
+void RunMeanFresnel(Arguments<T>& a) {
+  constexpr MeanFresnelKernelPlace place = PlaceOfMeanFresnelKernel(kKernel);
+  using Calls = MeanFresnelCalls<place.normals>;
+  if constexpr (place.quantity == MeanFresnelQuantity::kCosine) {
+    Calls::Cosine(a.n, a.Lanes(0), a.Value(1), a.Out(0), a.accuracy);
+  } else {
+    constexpr std::size_t kOrder = Split(kKernels[kKernel].inputs).columns;
+    const QuadratureRule rule(static_cast<double>(a.in[kOrder][0]));
+    if constexpr (place.quantity == MeanFresnelQuantity::kDielectric) {
+      Calls::Dielectric(a.n, a.Direction(0), {a.Value(3), a.Value(4)}, a.Value(5), rule, a.Out(0),
+                        a.accuracy);
+    } else if constexpr (place.quantity == MeanFresnelQuantity::kConductor) {
+      Calls::Conductor(a.n, a.Direction(0), {a.Value(3), a.Value(4)}, {a.Value(5), a.Value(6)}, rule,
+                       a.Out(0), a.accuracy);
+    } else {
+      Calls::Schlick(a.n, a.Direction(0), {a.Value(3), a.Value(4)}, {a.Value(5)}, rule, a.Out(0), a.accuracy);
+    }
+  }
+}
+
+template <class T, std::size_t... kPlace>
+void AppendMeanFresnel(std::vector<Row<T>>& rows, std::index_sequence<kPlace...>) {
+  (rows.push_back(
+       {kKernels[kFirstMeanFresnelKernel + kPlace].id, RunMeanFresnel<T, kFirstMeanFresnelKernel + kPlace>}),
+   ...);
+}
+
 template <Normals kNormals>
 using NormalCallsOf = std::conditional_t<kNormals == Normals::kGgx, ggx,
                                          std::conditional_t<kNormals == Normals::kBeckmann, beckmann, phong>>;
@@ -294,6 +323,7 @@ const std::vector<Row<T>>& Rows() {
         all, std::make_index_sequence<NumDielectricQuantities(Normals::kPhong)>());
     AppendReflectors(all, std::make_index_sequence<kNumReflectorKernels>());
     AppendDiffuse(all, std::make_index_sequence<kNumDiffuseKernels>());
+    AppendMeanFresnel(all, std::make_index_sequence<kNumMeanFresnelKernels>());
     return all;
   }();
   return rows;

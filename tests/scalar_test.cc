@@ -163,6 +163,7 @@ constexpr ScalarBound FindModelBound(Normals normals, const DielectricQuantity& 
 }
 
 constexpr ScalarBound FindBound(std::size_t kernel) {
+  if (kernel >= kFirstMeanFresnelKernel) return {"", 1, 1024};
   if (kernel >= kFirstDiffuseKernel) return {"", 6, 64};  // Lambda of Beckmann
   if (kernel >= kFirstReflectorKernel) {
     const ReflectorKernelPlace place = PlaceOfReflectorKernel(kernel);

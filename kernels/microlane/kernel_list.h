@@ -49,6 +49,8 @@ enum class Metric {
   // wo.z; of separable masking Lambda_o/(1 + Lambda_o) and 1/(1 + Lambda_o) in these; of facets that do not
   // reflect all, plus kDirection's kappa times |dF/d(wi.m)|/F. Judged where the error that kDirection allows
   // is small beside wo.z, r/(alpha_x + alpha_y), and Schlick's F/|dF/d(wi.m)| or a conductor's |g^2|/|wi.m|.
+  // Of a mean of F over normals: 1 + the mean of |F(c + e) - F(c - e)|/F for e = 2^-24 c times kDirection's
+  // kappa of the normal, over 2^-24.
   // Of a dielectric about visible normals the first kappa, times that of the normal: of a density that of its
   // density, of a weight kDirection's.
   kConditioned,
@@ -193,6 +195,13 @@ inline constexpr std::string_view kDiffuseNote =
     "against which the error bounds are; 0 for opposite sides and where wiz or woz is 0. Height-correlated: G = 1/(1 + Lambda_i + "
     "Lambda_o), Heitz 99.";
 inline constexpr std::string_view kDiffuseSeparableNote = "As eval with the separable G = G1(i) G1(o), Heitz 98.";
+inline constexpr std::string_view kMeanFresnelNote =
+    "Mean of F(v.m) over the normals that v sees, as a sum over the normals of quadrature.h, against which the error bounds are. v of "
+    "either side, as |vz|; 0 where v = 0.";
+inline constexpr std::string_view kMeanFresnelCosineNote =
+    "Cosine c at which Schlick's F is its mean over the normals of an isotropic surface seen at cos_i, as a fit (mean_fresnel_fit.h): "
+    "f0 + (1 - f0) (1 - c)^5 is within 0.006 (1 - f0) of the mean over GGX and 0.0014 (1 - f0) over Beckmann. |cos_i| is used; alpha "
+    "above 2 counts as 2.";
 inline constexpr std::string_view kSampleNote =
     "wi.m > 0 on wi's side, else none; u3 < F reflects. Outside its hemisphere: lobe 0, and every output 0. "
     "weight = f |cos(theta_o)| / pdf in closed form (Walter 41).";
@@ -518,6 +527,22 @@ inline constexpr DielectricQuantity kDiffuseQuantities[] = {
 };
 inline constexpr std::size_t kNumDiffuseQuantities = std::size(kDiffuseQuantities);
 
+// Means over visible normals for each distribution that is a stretch of a radial one: of a reflectance, by the parameters that
+// stand behind the distribution's, or what stands for it at one cosine.
+struct MeanFresnelQuantity {
+  enum What { kDielectric, kConductor, kSchlick, kCosine };
+  std::string_view name, parameters, source;
+};
+
+// By MeanFresnelQuantity::What.
+inline constexpr MeanFresnelQuantity kMeanFresnelQuantities[] = {
+    {"dielectric", " eta", "F as fresnel.dielectric"},
+    {"conductor", " n kappa", "F as fresnel.conductor"},
+    {"schlick", " f0", "F as fresnel.schlick"},
+    {"cosine", "", "F as fresnel.schlick"},
+};
+inline constexpr std::size_t kNumMeanFresnelQuantities = std::size(kMeanFresnelQuantities);
+
 // A distribution of normals in the models over it.
 struct ModelFamily {
   std::string_view suffix;      // of the models' ids, before the '.'
@@ -529,6 +554,8 @@ struct ModelFamily {
   // NOLINTNEXTLINE(readability-redundant-member-init): rows without visible normals leave it out
   Bounds reflector_sample_v_cavity[kNumReflectors]{}, reflector_sample_visible[kNumReflectors]{},
       sample_visible{}, diffuse{};
+  // NOLINTNEXTLINE(readability-redundant-member-init): rows without visible normals leave it out
+  Bounds mean_fresnel[kNumMeanFresnelQuantities]{};
 
   constexpr const Bounds& BoundsOf(const DielectricQuantity& q) const {
     return q.what == DielectricQuantity::kSample ? (q.visible ? sample_visible : sample)
@@ -547,14 +574,16 @@ inline constexpr ModelFamily kModelFamilies[] = {
      {{1, 14, 450, 16, 13}, {1, 14, 1000, 16, 13}, {1, 14, 450, 16, 13}},
      {{1, 16, 2800, 24, 4000}, {1, 16, 2800, 24, 4000}, {1, 16, 2800, 24, 4000}},
      {{1, 24, 2800, 32, 24}, {1, 24, 3400, 32, 60}, {1, 24, 2800, 32, 24}}, {1, 24, 6500, 32, 24},
-     {1, 14, 4200, 14, 256}},
+     {1, 14, 4200, 14, 256},
+     {{1, 24, 3600, 36, 256}, {1, 30, 4400, 64, 256}, {1, 24, 1200, 24, 64}, {1, 1, 64, 1, 40}}},
     {"_beckmann", "alpha_x alpha_y", "Beckmann: Walter 2007 Eqs. 25, 26, 28, 29, stretched",
      {1, 19, 6500, 24, 0x1p21}, {1, 18, 6500, 24, 0x1p14}, {1, 14, 2400, 20, 4800}, {1, 24, 6500, 32, 17},
      {{1, 14, 3400, 20, 4096}, {1, 24, 5800, 24, 4500}, {1, 17, 6500, 22, 4800}},
      {{1, 14, 450, 16, 13}, {1, 14, 1000, 16, 13}, {1, 14, 450, 16, 13}},
      {{1, 16, 2800, 24, 4000}, {1, 16, 2800, 24, 4000}, {1, 16, 2800, 24, 4000}},
      {{1, 18, 2800, 20, 26}, {1, 18, 2800, 20, 40}, {1, 18, 2800, 20, 26}}, {1, 24, 6500, 32, 24},
-     {1, 14, 4200, 14, 512}},
+     {1, 14, 4200, 14, 512},
+     {{1, 40, 4400, 40, 256}, {1, 30, 4600, 64, 256}, {1, 40, 1200, 40, 64}, {1, 1, 32, 1, 16}}},
     {"_phong", "exponent", "Phong: Walter 2007 Eqs. 27, 30-32",
      {1, 21, 6500, 24, 0x1p21}, {1, 20, 6500, 24, 0x1p14}, {1, 14, 2400, 20, 4200}, {1, 24, 4600, 32, 17},
      {{1, 15, 4500, 20, 4800}, {1, 24, 7000, 24, 4800}, {1, 17, 7000, 22, 4800}},
@@ -596,6 +625,11 @@ constexpr std::size_t NumReflectorKernels(Normals normals) {
 constexpr std::size_t NumDiffuseKernels(Normals normals) {
   return kModelFamilies[static_cast<std::size_t>(normals)].diffuse.high > 0 ? kNumDiffuseQuantities : 0;
 }
+constexpr std::size_t NumMeanFresnelKernels(Normals normals) {
+  return kModelFamilies[static_cast<std::size_t>(normals)].mean_fresnel[0].high > 0
+             ? kNumMeanFresnelQuantities
+             : 0;
+}
 
 // The first of a model's kernels over each distribution, from `first` on, and the end of the last.
 using FirstKernels = std::array<std::size_t, kNumModelFamilies + 1>;
@@ -611,7 +645,7 @@ constexpr std::size_t FamilyOf(std::size_t kernel, const FirstKernels& first) {
 }
 
 // Component kernels, then distributions of normals, then rough dielectrics, then opaque surfaces, then
-// diffuse ones.
+// diffuse ones, then means over visible normals.
 inline constexpr std::size_t kFirstDielectricKernel = kNumComponentKernels + kNumNormalKernels;
 inline constexpr FirstKernels kFirstDielectricKernels =
     MakeFirstKernels(kFirstDielectricKernel, NumDielectricQuantities);
@@ -620,10 +654,14 @@ inline constexpr FirstKernels kFirstReflectorKernels =
     MakeFirstKernels(kFirstReflectorKernel, NumReflectorKernels);
 inline constexpr std::size_t kFirstDiffuseKernel = kFirstReflectorKernels[kNumModelFamilies];
 inline constexpr FirstKernels kFirstDiffuseKernels = MakeFirstKernels(kFirstDiffuseKernel, NumDiffuseKernels);
-inline constexpr std::size_t kNumKernels = kFirstDiffuseKernels[kNumModelFamilies];
+inline constexpr std::size_t kFirstMeanFresnelKernel = kFirstDiffuseKernels[kNumModelFamilies];
+inline constexpr FirstKernels kFirstMeanFresnelKernels =
+    MakeFirstKernels(kFirstMeanFresnelKernel, NumMeanFresnelKernels);
+inline constexpr std::size_t kNumKernels = kFirstMeanFresnelKernels[kNumModelFamilies];
 inline constexpr std::size_t kNumDielectricKernels = kFirstReflectorKernel - kFirstDielectricKernel;
 inline constexpr std::size_t kNumReflectorKernels = kFirstDiffuseKernel - kFirstReflectorKernel;
-inline constexpr std::size_t kNumDiffuseKernels = kNumKernels - kFirstDiffuseKernel;
+inline constexpr std::size_t kNumDiffuseKernels = kFirstMeanFresnelKernel - kFirstDiffuseKernel;
+inline constexpr std::size_t kNumMeanFresnelKernels = kNumKernels - kFirstMeanFresnelKernel;
 inline constexpr std::size_t kMaxInputs = 11;
 inline constexpr std::size_t kMaxOutputs = 6;
 
@@ -668,6 +706,19 @@ constexpr std::size_t DiffuseKernel(Normals normals, std::size_t quantity) {
 constexpr DiffuseKernelPlace PlaceOfDiffuseKernel(std::size_t kernel) {
   const std::size_t family = FamilyOf(kernel, kFirstDiffuseKernels);
   return {static_cast<Normals>(family), kernel - kFirstDiffuseKernels[family]};
+}
+
+// A mean over visible normals: its distribution of normals and place in kMeanFresnelQuantities.
+struct MeanFresnelKernelPlace {
+  Normals normals;
+  std::size_t quantity;
+};
+constexpr std::size_t MeanFresnelKernel(Normals normals, std::size_t quantity) {
+  return kFirstMeanFresnelKernels[static_cast<std::size_t>(normals)] + quantity;
+}
+constexpr MeanFresnelKernelPlace PlaceOfMeanFresnelKernel(std::size_t kernel) {
+  const std::size_t family = FamilyOf(kernel, kFirstMeanFresnelKernels);
+  return {static_cast<Normals>(family), kernel - kFirstMeanFresnelKernels[family]};
 }
 
 // A kernel of a distribution of normals: its place in kNormalRows, and its kind of roughness.
@@ -816,6 +867,22 @@ constexpr auto MakeDiffuseText() {
 }
 inline constexpr auto kDiffuseText = MakeDiffuseText();
 
+constexpr auto MakeMeanFresnelText() {
+  std::array<ModelText, kNumMeanFresnelKernels> text{};
+  for (std::size_t i = 0; i < kNumMeanFresnelKernels; ++i) {
+    const MeanFresnelKernelPlace place = PlaceOfMeanFresnelKernel(kFirstMeanFresnelKernel + i);
+    const ModelFamily& family = kModelFamilies[static_cast<std::size_t>(place.normals)];
+    const MeanFresnelQuantity& q = kMeanFresnelQuantities[place.quantity];
+    text[i] = {JoinedText("mean_fresnel", family.suffix, ".", q.name),
+               place.quantity == MeanFresnelQuantity::kCosine
+                   ? JoinedText("cos_i | alpha")
+                   : JoinedText("vx vy vz | ", family.parameters, q.parameters, " | order"),
+               JoinedText("Heitz 2014 Eq. 105; ", q.source, "; ", family.source)};
+  }
+  return text;
+}
+inline constexpr auto kMeanFresnelText = MakeMeanFresnelText();
+
 constexpr std::array<Kernel, kNumKernels> MakeKernels() {
   constexpr std::string_view outputs[] = {"f_cos", "pdf", "f_cos pdf", "wox woy woz weight pdf lobe"};
   std::array<Kernel, kNumKernels> kernels{};
@@ -860,6 +927,18 @@ constexpr std::array<Kernel, kNumKernels> MakeKernels() {
     add_model(kFirstDiffuseKernel + i, kDiffuseText[i], kDiffuseQuantities[place.quantity], false,
               kModelFamilies[static_cast<std::size_t>(place.normals)].diffuse);
   }
+  for (std::size_t i = 0; i < kNumMeanFresnelKernels; ++i) {
+    const MeanFresnelKernelPlace place = PlaceOfMeanFresnelKernel(kFirstMeanFresnelKernel + i);
+    const ModelFamily& family = kModelFamilies[static_cast<std::size_t>(place.normals)];
+    const bool cosine = place.quantity == MeanFresnelQuantity::kCosine;
+    kernels[kFirstMeanFresnelKernel + i] = {kMeanFresnelText[i].id.view(),
+                                            kMeanFresnelText[i].inputs.view(),
+                                            cosine ? "cos" : "F",
+                                            kMeanFresnelText[i].source.view(),
+                                            cosine ? kMeanFresnelCosineNote : kMeanFresnelNote,
+                                            false,
+                                            family.mean_fresnel[place.quantity]};
+  }
   return kernels;
 }
 inline constexpr std::array<Kernel, kNumKernels> kKernels = MakeKernels();
@@ -890,6 +969,12 @@ constexpr Names Split(std::string_view text) {
   if (bars < 1) names.per_lane = names.count;
   if (bars < 2) names.columns = names.count;
   return names;
+}
+
+// Whether the kernel takes an object whole.
+constexpr bool TakesRule(std::size_t kernel) {
+  const Names inputs = Split(kKernels[kernel].inputs);
+  return inputs.columns < inputs.count;
 }
 
 // Index into kKernels, or kNumKernels if there is no such id.
@@ -935,12 +1020,14 @@ constexpr bool SamplesVisibleNormal(const Kernel& kernel) {
 }
 
 // The density of a sampled direction or visible normal is a function of the random numbers through the
-// geometry, so it is judged as a weight is; every other output has the metric of its name.
+// geometry, so it is judged as a weight is, and so is a mean of F, whose slope has no limit at the critical
+// angle; every other output has the metric of its name.
 constexpr Metric MetricOf(const Kernel& kernel, std::string_view output) {
   const bool samples_direction =
       kernel.outputs.size() > 4 && kernel.outputs.substr(kernel.outputs.size() - 4) == "lobe";
   const bool depends_on_view = samples_direction || SamplesVisibleNormal(kernel);
-  return depends_on_view && output == "pdf" ? Metric::kConditioned : FindOutput(output).metric;
+  const bool mean = output == "F" && Split(kernel.inputs).columns < Split(kernel.inputs).count;
+  return mean || (depends_on_view && output == "pdf") ? Metric::kConditioned : FindOutput(output).metric;
 }
 
 }  // namespace microlane

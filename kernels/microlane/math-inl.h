@@ -143,6 +143,14 @@ HWY_INLINE void FastTwoSum(V a, V b, V& s, V& e) {
   e = hn::Sub(b, hn::Sub(s, a));
 }
 
+// sum + tail += x y, positive terms; without a tail in kFast.
+template <Accuracy A, class V>
+HWY_INLINE void AddTerm(V& sum, V& tail, V x, V y) {
+  const V added = hn::MulAdd(x, y, sum);
+  if constexpr (A != Accuracy::kFast) tail = hn::Add(tail, hn::MulAdd(x, y, hn::Sub(sum, added)));
+  sum = added;
+}
+
 // 1 - u = w + w_tail exactly, for u in [0, 1].
 template <class D>
 HWY_INLINE void OneMinus(D d, Vec<D> u, Vec<D>& w, Vec<D>& w_tail) {
@@ -215,6 +223,17 @@ HWY_INLINE Vec<D> Polynomial(D d, Vec<D> x, const double (&c)[N]) {
     return first;
   } else {
     return hn::MulAdd(Polynomial<kFirst + kStep, kStep>(d, x, c), x, first);
+  }
+}
+
+// sum_ij c[i][j] x^i y^j.
+template <std::size_t kRow = 0, class D, size_t N, size_t M>
+HWY_INLINE Vec<D> Polynomial(D d, Vec<D> x, Vec<D> y, const double (&c)[N][M]) {
+  const Vec<D> row = Polynomial(d, y, c[kRow]);
+  if constexpr (kRow + 1 == N) {
+    return row;
+  } else {
+    return hn::MulAdd(Polynomial<kRow + 1>(d, x, y, c), x, row);
   }
 }
 

@@ -9,6 +9,7 @@
 #include "microlane/kernel_list.h"       // IWYU pragma: export
 #include "microlane/masking.h"           // IWYU pragma: export
 #include "microlane/material.h"          // IWYU pragma: export
+#include "microlane/mean_fresnel.h"      // IWYU pragma: export
 #include "microlane/packets.h"           // IWYU pragma: export
 #include "microlane/phong.h"             // IWYU pragma: export
 #include "microlane/quadrature.h"        // IWYU pragma: export

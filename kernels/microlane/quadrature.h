@@ -11,6 +11,10 @@
 // for Beckmann r = t min(1/K, R), R^2 = 1 + 1.5 order, beyond which exp(-r^2) counts as 0. x and t take the
 // Gauss-Legendre nodes of [0, 1]: 3 order^2 normals, every one of them seen from both sides. The integrand is
 // smooth in both, so the error falls exponentially with the order.
+//
+// Normals that v sees: of GGX by the spherical caps of its sampler, c.z = (1 - u) - u s.z with u = sin^2(pi
+// t/2) and azimuths phi = +-(j + 1/2) pi/order, 2 order^2 of them; of Beckmann order^2, of slopes t along v's
+// azimuth from the edge of what v sees, or -S, to S, and y across it from -S to S, S^2 = 0.6 (order + 1).
 #ifndef MICROLANE_QUADRATURE_H_
 #define MICROLANE_QUADRATURE_H_
 
@@ -34,6 +38,14 @@ enum class QuadratureRow : std::size_t {
   kBeckmannPart,    // t
   kBeckmannRest,    // 1 - t
   kBeckmannWeight,  // w t
+  // Of normals visible from v, below.
+  kCapPart,               // u
+  kCapRest,               // 1 - u
+  kCapWeight,             // w sin(pi t), to a sum of 1/(2 order)
+  kCosine,                // cos(phi)
+  kSine,                  // sin(phi)
+  kBeckmannAcross,        // y
+  kBeckmannAcrossWeight,  // w exp(-y^2), to a sum of 1
   kNumRows
 };
 
@@ -41,7 +53,8 @@ enum class QuadratureRow : std::size_t {
 template <class T>
 struct QuadratureTable {
   std::size_t order;
-  T beckmann_radius;  // R
+  T beckmann_radius;   // R
+  T beckmann_visible;  // S
   const T* rows;
 
   const T* operator[](QuadratureRow row) const { return rows + static_cast<std::size_t>(row) * order; }
@@ -65,18 +78,19 @@ class QuadratureRule {
  private:
   std::string error_;
   std::size_t order_ = 0;
-  double beckmann_radius_ = 0;
+  double beckmann_radius_ = 0, beckmann_visible_ = 0;
   std::vector<double> doubles_;
   std::vector<float> floats_;
 };
 
 template <>
 inline QuadratureTable<double> QuadratureRule::Table<double>() const {
-  return {order_, beckmann_radius_, doubles_.data()};
+  return {order_, beckmann_radius_, beckmann_visible_, doubles_.data()};
 }
 template <>
 inline QuadratureTable<float> QuadratureRule::Table<float>() const {
-  return {order_, static_cast<float>(beckmann_radius_), floats_.data()};
+  return {order_, static_cast<float>(beckmann_radius_), static_cast<float>(beckmann_visible_),
+          floats_.data()};
 }
 
 }  // namespace microlane

@@ -303,14 +303,6 @@ HWY_NOINLINE void MakeAzimuths(D d, const QuadratureRule& rule, const T<D> (*in)
   }
 }
 
-// sum + tail += x y, positive terms; without a tail in kFast.
-template <Accuracy A, class V>
-HWY_INLINE void AddTerm(V& sum, V& tail, V x, V y) {
-  const V added = hn::MulAdd(x, y, sum);
-  if constexpr (A != Accuracy::kFast) tail = hn::Add(tail, hn::MulAdd(x, y, hn::Sub(sum, added)));
-  sum = added;
-}
-
 // f |cos(theta_o)| of white diffuse facets.
 template <class Dist, class Radius, JointMasking kG, Accuracy A, class D>
 HWY_INLINE Vec<D> RoughDiffuse(D d, const QuadratureRule& rule, Vec<D> ix, Vec<D> iy, Vec<D> iz, Vec<D> ox,

@@ -28,14 +28,15 @@ struct ConductorFacets {
   static constexpr std::size_t kParameters = 2;
   static constexpr bool kReflectsAll = false, kHasG = true;
 
-  // F = f / (A^2 M^2); g2 is n^2 - s^2.
+  // F = |g^2 - c^2|^2 N / (A^2 M^2); g2 is n^2 - s^2, and 2 n kappa times norm `twice`.
   template <Accuracy A, class D>
-  static HWY_INLINE void Reflectance(D d, Vec<D>& f, Vec<D>& a, Vec<D>& m2, hn::Mask<D>& hard, Vec<D> c2,
-                                     Vec<D> s2, Vec<D>, Vec<D> g2, Vec<D> norm, Vec<D> n, Vec<D> kappa) {
+  static HWY_INLINE void Terms(D d, Vec<D>& big_n, Vec<D>& a, Vec<D>& m2, Vec<D>& twice, hn::Mask<D>& hard,
+                               Vec<D> c2, Vec<D> s2, Vec<D> g2, Vec<D> norm, Vec<D> n, Vec<D> kappa) {
     constexpr bool kInFloat = kIsFloat<D>, kFast = A == Accuracy::kFast;
-    const Vec<D> zero = hn::Zero(d), one = Const(d, 1), kappa_norm = hn::Mul(kappa, norm);
+    const Vec<D> zero = hn::Zero(d), kappa_norm = hn::Mul(kappa, norm);
     // Where n^2 - s^2 and kappa^2 cancel, 2 n kappa is the greater part of R.
-    const Vec<D> t = hn::NegMulAdd(kappa, kappa_norm, g2), twice = hn::Mul(hn::Add(n, n), kappa_norm);
+    const Vec<D> t = hn::NegMulAdd(kappa, kappa_norm, g2);
+    twice = hn::Mul(hn::Add(n, n), kappa_norm);
     Vec<D> r2 = hn::MulAdd(t, t, hn::Mul(twice, twice));
     if constexpr (kFast) r2 = hn::Max(r2, Const(d, 1e-30));
     const Vec<D> r = SqrtOfPositive<A>(d, r2);
@@ -50,13 +51,21 @@ struct ConductorFacets {
     Vec<D> square = hn::Mul(hn::Add(c2, c2), part);
     square = hn::Max(kFast ? Const(d, 1e-30) : zero, square);
     const Vec<D> two_ac = SqrtOfPositive<A>(d, square);
-    const Vec<D> big_n = hn::MulAdd(r, c2, hn::Mul(s2, s2));
+    big_n = hn::MulAdd(r, c2, hn::Mul(s2, s2));
     m2 = hn::MulAdd(two_ac, s2, big_n);
     a = hn::Add(hn::Add(r, c2), two_ac);
     if constexpr (!kInFloat) a = hn::Max(a, Const(d, 1e-280));
+  }
+
+  // F = f / (A^2 M^2).
+  template <Accuracy A, class D>
+  static HWY_INLINE void Reflectance(D d, Vec<D>& f, Vec<D>& a, Vec<D>& m2, hn::Mask<D>& hard, Vec<D> c2,
+                                     Vec<D> s2, Vec<D>, Vec<D> g2, Vec<D> norm, Vec<D> n, Vec<D> kappa) {
+    Vec<D> big_n, twice;
+    Terms<A>(d, big_n, a, m2, twice, hard, c2, s2, g2, norm, n, kappa);
     // |g^2 - c^2|^2 = (n^2 - 1 - kappa^2)^2 + (2 n kappa)^2: where the difference cancels, the other is
     // greater.
-    const Vec<D> real = hn::Mul(hn::NegMulAdd(kappa, kappa, FusedMulSub(d, n, n, one)), norm);
+    const Vec<D> real = hn::Mul(hn::NegMulAdd(kappa, kappa, FusedMulSub(d, n, n, Const(d, 1))), norm);
     f = hn::Mul(hn::MulAdd(real, real, hn::Mul(twice, twice)), big_n);
   }
 

@@ -66,6 +66,8 @@ template <Normals kNormals>
 const FamilyFunction* RoughReflectorTable();
 template <Normals kNormals>
 const FamilyFunction* RoughDiffuseTable();
+template <Normals kNormals>
+const FamilyFunction* MeanFresnelTable();
 template <>
 const FamilyFunction* NormalsTable<Normals::kGgx>();
 template <>
@@ -88,6 +90,10 @@ template <>
 const FamilyFunction* RoughDiffuseTable<Normals::kGgx>();
 template <>
 const FamilyFunction* RoughDiffuseTable<Normals::kBeckmann>();
+template <>
+const FamilyFunction* MeanFresnelTable<Normals::kGgx>();
+template <>
+const FamilyFunction* MeanFresnelTable<Normals::kBeckmann>();
 
 // What CallBuilder::Run runs: the kernel of that index, of the family that the table stands for.
 template <class T>

@@ -28,6 +28,10 @@ const FamilyFunction* OfNormals(std::size_t normals, std::index_sequence<kNormal
 
 const FamilyFunction* TableOf(std::size_t kernel) {
   constexpr auto families = std::make_index_sequence<kNumModelFamilies>();
+  if (kernel >= kFirstMeanFresnelKernel) {
+    return PlaceOfMeanFresnelKernel(kernel).normals == Normals::kGgx ? MeanFresnelTable<Normals::kGgx>()
+                                                                     : MeanFresnelTable<Normals::kBeckmann>();
+  }
   if (kernel >= kFirstDiffuseKernel) {
     return PlaceOfDiffuseKernel(kernel).normals == Normals::kGgx ? RoughDiffuseTable<Normals::kGgx>()
                                                                  : RoughDiffuseTable<Normals::kBeckmann>();
@@ -99,7 +103,12 @@ void RunByOrder(std::size_t kernel, Accuracy accuracy, const Call<T>& call, std:
 
 template <class T>
 void RunOne(std::size_t kernel, Accuracy accuracy, const Call<T>& call, std::size_t n) {
-  if (kernel < kFirstDiffuseKernel) {
+  static constexpr auto kTakesRule = [] {
+    std::array<bool, kNumKernels> takes{};
+    for (std::size_t k = kFirstDiffuseKernel; k < kNumKernels; ++k) takes[k] = TakesRule(k);
+    return takes;
+  }();
+  if (!kTakesRule[kernel]) {
     Run(CodeOf(Table(kernel), kernel), accuracy, call, n);
   } else if (call.rule == nullptr) {
     RunByOrder(kernel, accuracy, call, n);

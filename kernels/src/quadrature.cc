@@ -1,6 +1,8 @@
 #include "microlane/quadrature.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "microlane/kernel_list.h"
 #include "microlane/material.h"
@@ -47,7 +49,13 @@ QuadratureRule::QuadratureRule(double order) : error_(CheckOrder(order)) {
   if (!ok()) return;
   order_ = static_cast<std::size_t>(order);
   beckmann_radius_ = std::sqrt(1 + 1.5 * order);
+  beckmann_visible_ = std::sqrt(0.6 * (order + 1));
   doubles_.resize(kRows * order_);
+  const auto normalize = [&](QuadratureRow row, double sum) {
+    double* const first = doubles_.data() + static_cast<std::size_t>(row) * order_;
+    const double factor = sum / std::accumulate(first, first + order_, 0.0);
+    std::for_each(first, first + order_, [&](double& x) { x *= factor; });
+  };
   const auto put = [&](QuadratureRow row, std::size_t i, double value) {
     doubles_[static_cast<std::size_t>(row) * order_ + i] = value;
   };
@@ -75,7 +83,21 @@ QuadratureRule::QuadratureRule(double order) : error_(CheckOrder(order)) {
       put(QuadratureRow::kBeckmannPart, i, t);
       put(QuadratureRow::kBeckmannRest, i, rest);
       put(QuadratureRow::kBeckmannWeight, i, weight * t);
+      const double sine = std::sin(kPi / 2 * t), cosine = std::sin(kPi / 2 * rest),
+                   y = (t - rest) * beckmann_visible_;
+      put(QuadratureRow::kCapPart, i, sine * sine);
+      put(QuadratureRow::kCapRest, i, cosine * cosine);
+      put(QuadratureRow::kCapWeight, i, weight * sine * cosine);
+      put(QuadratureRow::kBeckmannAcross, i, y);
+      put(QuadratureRow::kBeckmannAcrossWeight, i, weight * std::exp(-y * y));
     }
+  }
+  normalize(QuadratureRow::kCapWeight, 0.5 / order);
+  normalize(QuadratureRow::kBeckmannAcrossWeight, 1);
+  for (std::size_t i = 0; i < order_; ++i) {
+    const double phi = kPi * (static_cast<double>(i) + 0.5) / order;
+    put(QuadratureRow::kCosine, i, std::cos(phi));
+    put(QuadratureRow::kSine, i, std::sin(phi));
   }
   for (const double value : doubles_) floats_.push_back(static_cast<float>(value));
 }

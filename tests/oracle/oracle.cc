@@ -12,6 +12,7 @@
 #include "oracle/half_vector.h"
 #include "oracle/masking.h"
 #include "oracle/math.h"
+#include "oracle/mean_fresnel.h"
 #include "oracle/phong.h"
 #include "oracle/rough_diffuse.h"
 #include "oracle/rough_reflector.h"
@@ -309,6 +310,32 @@ void OfDiffuse(Call& call) {
   call.out[0] = surface.EvalCos(Direction(call.in), Direction(call.in + 3));
 }
 
+// A mean over visible normals.
+template <std::size_t kKernel>
+void OfMeanFresnel(Call& call) {
+  constexpr MeanFresnelKernelPlace place = PlaceOfMeanFresnelKernel(kKernel);
+  if constexpr (place.quantity == MeanFresnelQuantity::kCosine) {
+    call.out[0] = MeanFresnelCosine(call.in[0], call.in[1],
+                                    place.normals == Normals::kGgx ? kGgxCosineFit : kBeckmannCosineFit);
+  } else {
+    constexpr Names inputs = Split(kKernels[kKernel].inputs);
+    const auto normals = MakeNormals<place.normals, ModelRoughness(place.normals)>(call.in + inputs.per_lane);
+    const Real* const facets = call.in + 5;
+    const MeanReflectance result = MeanFresnel(
+        normals, Direction(call.in), static_cast<int>(call.in[inputs.columns]), [&](const Real& c) {
+          if constexpr (place.quantity == MeanFresnelQuantity::kDielectric) {
+            return FresnelDielectric(c, facets[0]);
+          } else if constexpr (place.quantity == MeanFresnelQuantity::kConductor) {
+            return FresnelConductor(c, facets[0], facets[1]);
+          } else {
+            return FresnelSchlick(c, facets[0]);
+          }
+        });
+    call.out[0] = result.mean;
+    call.kappa = result.kappa;
+  }
+}
+
 struct Entry {
   std::string_view id;
   Function function;
@@ -470,6 +497,11 @@ constexpr void AddDiffuse(std::array<Resolved, kNumKernels>& table, std::index_s
   ((table[kFirstDiffuseKernel + kPlace].function = OfDiffuse<kFirstDiffuseKernel + kPlace>), ...);
 }
 
+template <std::size_t... kPlace>
+constexpr void AddMeanFresnel(std::array<Resolved, kNumKernels>& table, std::index_sequence<kPlace...>) {
+  ((table[kFirstMeanFresnelKernel + kPlace].function = OfMeanFresnel<kFirstMeanFresnelKernel + kPlace>), ...);
+}
+
 constexpr std::array<Resolved, kNumKernels> Resolve() {
   std::array<Resolved, kNumKernels> table{};
   for (std::size_t k = 0; k < kNumKernels; ++k) {
@@ -492,6 +524,7 @@ constexpr std::array<Resolved, kNumKernels> Resolve() {
                                   std::make_index_sequence<NumDielectricQuantities(Normals::kPhong)>());
   AddReflectors(table, std::make_index_sequence<kNumReflectorKernels>());
   AddDiffuse(table, std::make_index_sequence<kNumDiffuseKernels>());
+  AddMeanFresnel(table, std::make_index_sequence<kNumMeanFresnelKernels>());
   return table;
 }
 

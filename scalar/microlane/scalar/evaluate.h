@@ -17,6 +17,7 @@
 #include "microlane/scalar/half_vector.h"
 #include "microlane/scalar/masking.h"
 #include "microlane/scalar/math.h"
+#include "microlane/scalar/mean_fresnel.h"
 #include "microlane/scalar/phong.h"
 #include "microlane/scalar/rough_dielectric.h"
 #include "microlane/scalar/rough_diffuse.h"
@@ -218,6 +219,13 @@ RoughDiffuse<Distribution, Real, masking> MakeDiffuse(const Distribution<Real>& 
   return {distribution, order};
 }
 
+// A whole number of those that rules have.
+template <class Real>
+bool IsOrder(Real order) {
+  constexpr Input range = FindInput("order");
+  return order >= Real(range.low) && order <= Real(range.high) && order == std::floor(order);
+}
+
 // A kernel of a diffuse surface. NaN where the order is none.
 template <class Real, std::size_t kKernel>
 void RunDiffuse(const Real* in, Real* out, Transport) {
@@ -225,13 +233,41 @@ void RunDiffuse(const Real* in, Real* out, Transport) {
   constexpr Names inputs = Split(kKernels[kKernel].inputs);
   constexpr Masking masking = MaskingOf(kDiffuseQuantities[place.quantity]);
   const Real order = in[inputs.columns];
-  constexpr Input range = FindInput("order");
-  if (!(order >= Real(range.low) && order <= Real(range.high) && order == std::floor(order))) {
+  if (!IsOrder(order)) {
     out[0] = kNan<Real>;
     return;
   }
   const auto normals = MakeNormals<place.normals, ModelRoughness(place.normals)>(in + inputs.per_lane);
   out[0] = MakeDiffuse<masking>(normals, static_cast<int>(order)).Eval(Load(in), Load(in + 3));
+}
+
+// A mean over visible normals. NaN where the order is none.
+template <class Real, std::size_t kKernel>
+void RunMeanFresnel(const Real* in, Real* out, Transport) {
+  constexpr MeanFresnelKernelPlace place = PlaceOfMeanFresnelKernel(kKernel);
+  if constexpr (place.quantity == MeanFresnelQuantity::kCosine) {
+    out[0] =
+        MeanFresnelCosine(in[0], in[1], place.normals == Normals::kGgx ? kGgxCosineFit : kBeckmannCosineFit);
+  } else {
+    constexpr Names inputs = Split(kKernels[kKernel].inputs);
+    const Real order = in[inputs.columns];
+    const Real* const facets = in + 5;
+    if (!IsOrder(order) || std::isnan(facets[0]) || std::isnan(facets[1])) {
+      out[0] = kNan<Real>;
+      return;
+    }
+    const auto normals = MakeNormals<place.normals, ModelRoughness(place.normals)>(in + inputs.per_lane);
+    const auto mean = [&](const auto& reflectance) {
+      return MeanFresnel<Real>(normals, Load(in), static_cast<int>(order), reflectance);
+    };
+    if constexpr (place.quantity == MeanFresnelQuantity::kDielectric) {
+      out[0] = mean([&](auto cos2) { return FresnelDielectric<Real>(cos2, facets[0]).Reflectance(); });
+    } else if constexpr (place.quantity == MeanFresnelQuantity::kConductor) {
+      out[0] = mean([&](auto cos2) { return ConductorFacets<Real>{facets[0], facets[1]}.Reflectance(cos2); });
+    } else {
+      out[0] = mean([&](auto cos2) { return SchlickFacets<Real>{facets[0]}.Reflectance(cos2); });
+    }
+  }
 }
 
 template <class Real>
@@ -432,6 +468,12 @@ constexpr void AddDiffuse(KernelTable<Function<Real>>& table, std::index_sequenc
   ((table[kFirstDiffuseKernel + kPlace] = {RunDiffuse<Real, kFirstDiffuseKernel + kPlace>, true}), ...);
 }
 
+template <class Real, std::size_t... kPlace>
+constexpr void AddMeanFresnel(KernelTable<Function<Real>>& table, std::index_sequence<kPlace...>) {
+  ((table[kFirstMeanFresnelKernel + kPlace] = {RunMeanFresnel<Real, kFirstMeanFresnelKernel + kPlace>, true}),
+   ...);
+}
+
 // Functions in the order of kKernels; null where the list has an entry that this file has not.
 template <class Real>
 constexpr KernelTable<Function<Real>> Resolve() {
@@ -443,6 +485,7 @@ constexpr KernelTable<Function<Real>> Resolve() {
   AddDielectrics<Normals::kPhong>(table);
   AddReflectors(table, std::make_index_sequence<kNumReflectorKernels>());
   AddDiffuse(table, std::make_index_sequence<kNumDiffuseKernels>());
+  AddMeanFresnel(table, std::make_index_sequence<kNumMeanFresnelKernels>());
   return table;
 }
 
