@@ -82,12 +82,54 @@ inline float RationalG1(float a) {
   return (3.535f * a + 2.181f * a * a) / (1 + 2.276f * a + 2.577f * a * a);
 }
 
+// Incomplete Beta function over the whole, by Lentz's continued fraction.
+inline float BetaFraction(float a, float b, float x) {
+  constexpr float kTiny = 1e-30f;
+  float c = 1, d = 1 / (1 - (a + b) * x / (a + 1)), h = d;
+  for (int m = 1; m < 300; ++m) {
+    const float k = static_cast<float>(m);
+    for (const float term : {k * (b - k) * x / ((a - 1 + 2 * k) * (a + 2 * k)),
+                             -(a + k) * (a + b + k) * x / ((a + 2 * k) * (a + 1 + 2 * k))}) {
+      const float below = 1 + term * d;
+      d = 1 / (std::abs(below) < kTiny ? kTiny : below);
+      c = 1 + term / c;
+      h *= d * c;
+    }
+    if (std::abs(d * c - 1) < 3e-7f) break;
+  }
+  return h;
+}
+inline float RegularisedBeta(float a, float b, float x) {
+  if (x <= 0 || x >= 1) return x <= 0 ? 0 : 1;
+  const float front =
+      std::exp(std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b) + a * std::log(x) + b * std::log(1 - x));
+  return x < (a + 1) / (a + b + 2) ? front * BetaFraction(a, b, x) / a
+                                   : 1 - front * BetaFraction(b, a, 1 - x) / b;
+}
+
+// Smith's Lambda of slopes of Student's density: C (1 + mu^2)^-n / (2 n mu) less the share of slopes above
+// mu.
+struct StudentParts {
+  float gain, loss;
+};
+inline StudentParts OfStudent(float mu, float n) {
+  const float c = std::exp(std::lgamma(n + 1) - std::lgamma(n + 0.5f)) / std::sqrt(kPi);
+  return {c * std::pow(1 + Sqr(mu), -n) / (2 * n * mu),
+          0.5f * RegularisedBeta(n + 0.5f, 0.5f, 1 / (1 + Sqr(mu)))};
+}
+inline float StudentLambda(float mu, float n) {
+  const StudentParts parts = OfStudent(mu, n);
+  return parts.gain - parts.loss;
+}
 struct Ggx {
   static constexpr Normals kNormals = Normals::kGgx;
   static constexpr std::size_t kParameters = 2;
   float alpha_x, alpha_y;
 
   static Ggx Make(const float* in) { return {in[0], in[1]}; }
+
+  static float Shape(float e) { return 1 / Sqr(1 + e); }
+  static float LambdaOfA(float a) { return (std::sqrt(1 + 1 / Sqr(a)) - 1) / 2; }
 
   float D(const Vec3& wm) const {
     const float tan2_theta = Tan2Theta(wm);
@@ -190,6 +232,9 @@ struct Beckmann {
 
   static Beckmann Make(const float* in) { return {in[0], in[1]}; }
 
+  static float Shape(float e) { return std::exp(-e); }
+  static float LambdaOfA(float a) { return RationalLambda(a); }
+
   float D(const Vec3& wm) const {
     const float tan2_theta = Tan2Theta(wm);
     if (wm.z <= 0 || std::isinf(tan2_theta)) return 0;
@@ -271,6 +316,43 @@ struct BeckmannIsotropic : Beckmann {
   }
 };
 
+struct StudentT {
+  static constexpr Normals kNormals = Normals::kStudentT;
+  static constexpr std::size_t kParameters = 3;
+  float gamma, alpha_x, alpha_y;
+
+  static StudentT Make(const float* in) { return {in[0], in[1], in[2]}; }
+
+  float Shape(float e) const { return std::pow(1 + e / (gamma - 1), -gamma); }
+  float LambdaOfA(float a) const { return StudentLambda(a / std::sqrt(gamma - 1), gamma - 1.5f); }
+
+  float D(const Vec3& wm) const {
+    const float tan2_theta = Tan2Theta(wm);
+    if (wm.z <= 0 || std::isinf(tan2_theta)) return 0;
+    const float e = tan2_theta * (Cos2Phi(wm) / Sqr(alpha_x) + Sin2Phi(wm) / Sqr(alpha_y));
+    return Shape(e) / (kPi * alpha_x * alpha_y * Sqr(Cos2Theta(wm)));
+  }
+  float Lambda(const Vec3& w) const {
+    if (std::isinf(TanTheta(w))) return 0;
+    const float alpha = std::sqrt(Cos2Phi(w) * Sqr(alpha_x) + Sin2Phi(w) * Sqr(alpha_y));
+    return LambdaOfA(1 / (alpha * std::abs(TanTheta(w))));
+  }
+  Vec3 SampleNormal(float u1, float u2) const {
+    float phi = 2 * kPi * u2, alpha2 = Sqr(alpha_x);
+    if (alpha_x != alpha_y) {
+      phi = EllipticAzimuth(u2, alpha_x, alpha_y);
+      alpha2 = 1 / (Sqr(std::cos(phi) / alpha_x) + Sqr(std::sin(phi) / alpha_y));
+    }
+    const float tan2_theta = alpha2 * (gamma - 1) * (std::pow(1 - u1, -1 / (gamma - 1)) - 1);
+    const float cos_theta = 1 / std::sqrt(1 + tan2_theta);
+    return SphericalDirection(std::sqrt(std::max(0.f, 1 - Sqr(cos_theta))), cos_theta, phi);
+  }
+};
+
+struct StudentTIsotropic : StudentT {
+  static StudentTIsotropic Make(const float* in) { return {{in[0], in[1], in[1]}}; }
+};
+
 struct Phong {
   static constexpr Normals kNormals = Normals::kPhong;
   static constexpr std::size_t kParameters = 1;
@@ -296,6 +378,7 @@ struct Phong {
 // Correlated and off-centre slopes as Heitz 2014 Eqs. 92-97 print them.
 template <class Base>
 struct Sheared {
+  Base unit;  // of roughness 1
   float alpha_x, alpha_y, r_xy, mean_x = 0, mean_y = 0;
 
   float Cosine(const Vec3& w) const { return w.z - mean_x * w.x - mean_y * w.y; }
@@ -306,26 +389,24 @@ struct Sheared {
     const float determinant = Sqr(alpha_x) * Sqr(alpha_y) * (1 - Sqr(r_xy));
     const float e =
         (Sqr(x * alpha_y) + Sqr(y * alpha_x) - 2 * x * y * r_xy * alpha_x * alpha_y) / determinant;
-    const float shape = Base::kNormals == Normals::kGgx ? 1 / Sqr(1 + e) : std::exp(-e);
-    return shape / (kPi * std::sqrt(determinant) * Sqr(Sqr(wm.z)));
+    return unit.Shape(e) / (kPi * std::sqrt(determinant) * Sqr(Sqr(wm.z)));
   }
 
   float Lambda(const Vec3& w) const {
     const float alpha2 = Sqr(alpha_x * w.x) + Sqr(alpha_y * w.y) + 2 * w.x * w.y * r_xy * alpha_x * alpha_y;
     if (!(alpha2 > 0)) return 0;
-    const float a = std::abs(Cosine(w)) / std::sqrt(alpha2);
-    return Base::kNormals == Normals::kGgx ? (std::sqrt(1 + 1 / Sqr(a)) - 1) / 2 : RationalLambda(a);
+    return unit.LambdaOfA(std::abs(Cosine(w)) / std::sqrt(alpha2));
   }
 
   Vec3 FromUnit(const Vec3& wm) const {
     const float y = r_xy * wm.x + std::sqrt(1 - Sqr(r_xy)) * wm.y;
     return Normalize({alpha_x * wm.x - mean_x * wm.z, alpha_y * y - mean_y * wm.z, wm.z});
   }
-  Vec3 SampleNormal(float u1, float u2) const { return FromUnit(Base{1, 1}.SampleNormal(u1, u2)); }
+  Vec3 SampleNormal(float u1, float u2) const { return FromUnit(unit.SampleNormal(u1, u2)); }
   Vec3 SampleVisibleNormal(const Vec3& w, float u1, float u2) const {
     const Vec3 view{alpha_x * w.x + r_xy * alpha_y * w.y, std::sqrt(1 - Sqr(r_xy)) * alpha_y * w.y,
                     Cosine(w)};
-    return FromUnit(Base{1, 1}.SampleVisibleNormal(Normalize(view), u1, u2));
+    return FromUnit(unit.SampleVisibleNormal(Normalize(view), u1, u2));
   }
 };
 
@@ -630,16 +711,21 @@ void StoreSample(const Sample& sample, float* out) {
 }
 
 // A distribution from its parameters, as they follow the other inputs.
-template <RoughnessKind kRoughness, class Anisotropic, class Isotropic>
+template <RoughnessKind kRoughness, class Anisotropic, class Isotropic, std::size_t kOwn = 0>
 auto MakeRough(const float* in) {
+  const float *const own = in, *const p = in + kOwn;
+  const auto unit = [&] {
+    if constexpr (kOwn == 1) return Anisotropic{own[0], 1, 1};
+    if constexpr (kOwn == 0) return Anisotropic{1, 1};
+  };
   if constexpr (kRoughness == RoughnessKind::kIsotropic) {
     return Isotropic::Make(in);
   } else if constexpr (kRoughness == RoughnessKind::kAnisotropic) {
     return Anisotropic::Make(in);
   } else if constexpr (kRoughness == RoughnessKind::kRotated) {
-    return Sheared<Anisotropic>{in[0], in[1], in[2]};
+    return Sheared<Anisotropic>{unit(), p[0], p[1], p[2]};
   } else {
-    return Sheared<Anisotropic>{in[0], in[1], in[2], in[3], in[4]};
+    return Sheared<Anisotropic>{unit(), p[0], p[1], p[2], p[3], p[4]};
   }
 }
 template <Normals kNormals, RoughnessKind kRoughness>
@@ -647,6 +733,9 @@ auto MakeNormals(const float* in) {
   if constexpr (kNormals == Normals::kPhong) return Phong::Make(in);
   if constexpr (kNormals == Normals::kBeckmann) return MakeRough<kRoughness, Beckmann, BeckmannIsotropic>(in);
   if constexpr (kNormals == Normals::kGgx) return MakeRough<kRoughness, Ggx, GgxIsotropic>(in);
+  if constexpr (kNormals == Normals::kStudentT) {
+    return MakeRough<kRoughness, StudentT, StudentTIsotropic, 1>(in);
+  }
 }
 
 // A quantity of a distribution by its place in kNormalKernelPlaces.
@@ -891,45 +980,6 @@ void MaskingKelemen(const float* in, float* out, Transport) {
   out[0] = Sees(w, wm) ? AbsCosTheta(w) / AbsDot(w, wm) : 0;
 }
 
-// Incomplete Beta function over the whole, by Lentz's continued fraction.
-float BetaFraction(float a, float b, float x) {
-  constexpr float kTiny = 1e-30f;
-  float c = 1, d = 1 / (1 - (a + b) * x / (a + 1)), h = d;
-  for (int m = 1; m < 300; ++m) {
-    const float k = static_cast<float>(m);
-    for (const float term : {k * (b - k) * x / ((a - 1 + 2 * k) * (a + 2 * k)),
-                             -(a + k) * (a + b + k) * x / ((a + 2 * k) * (a + 1 + 2 * k))}) {
-      const float below = 1 + term * d;
-      d = 1 / (std::abs(below) < kTiny ? kTiny : below);
-      c = 1 + term / c;
-      h *= d * c;
-    }
-    if (std::abs(d * c - 1) < 3e-7f) break;
-  }
-  return h;
-}
-float RegularisedBeta(float a, float b, float x) {
-  if (x <= 0 || x >= 1) return x <= 0 ? 0 : 1;
-  const float front =
-      std::exp(std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b) + a * std::log(x) + b * std::log(1 - x));
-  return x < (a + 1) / (a + b + 2) ? front * BetaFraction(a, b, x) / a
-                                   : 1 - front * BetaFraction(b, a, 1 - x) / b;
-}
-
-// Smith's Lambda of slopes of Student's density: C (1 + mu^2)^-n / (2 n mu) less the share of slopes above
-// mu.
-struct StudentParts {
-  float gain, loss;
-};
-StudentParts OfStudent(float mu, float n) {
-  const float c = std::exp(std::lgamma(n + 1) - std::lgamma(n + 0.5f)) / std::sqrt(kPi);
-  return {c * std::pow(1 + Sqr(mu), -n) / (2 * n * mu),
-          0.5f * RegularisedBeta(n + 0.5f, 0.5f, 1 / (1 + Sqr(mu)))};
-}
-float StudentLambda(float mu, float n) {
-  const StudentParts parts = OfStudent(mu, n);
-  return parts.gain - parts.loss;
-}
 void StudentDefect(const float* in, float* out, Transport) {
   const StudentParts parts = OfStudent(in[0], in[1] - 1.5f);
   out[0] = 1 - parts.loss / parts.gain;

@@ -26,6 +26,7 @@ class Lanes {
     const std::string_view inputs = kKernels[kernel].inputs;
     beckmann_ = Contains(id, "beckmann");
     isotropic_ = Contains(inputs, "exponent") || Contains(id, "isotropic");
+    student_ = Contains(id, "student_t");
     reflects_ = !Contains(id, "transmission") && !Contains(id, "refract");
     transmits_ = !Contains(id, "reflect") && kernel < kFirstReflectorKernel;
     if (isotropic_) alpha_y_ = alpha_x_;
@@ -37,6 +38,7 @@ class Lanes {
     if (Uniform() < 0.5) eta_ = 1 / eta_;
     alpha_x_ = std::pow(0.01, Uniform());
     alpha_y_ = isotropic_ ? alpha_x_ : std::pow(0.01, Uniform());
+    if (student_) gamma_ = 1.6 * std::pow(20, Uniform());
   }
 
   void Next() {
@@ -74,7 +76,7 @@ class Lanes {
                : name == "f0"       ? 0.04
                : name == "x"        ? x_
                : name == "a"        ? a_
-               : name == "gamma"    ? 1.6 + a_
+               : name == "gamma"    ? (student_ ? gamma_ : 1.6 + a_)
                : name == "order"    ? static_cast<double>(kWorkloadOrder)
                : name == "Lambda_i" ? a_
                : name == "Lambda_o" ? alpha_x_ * a_
@@ -96,7 +98,9 @@ class Lanes {
     const double cosine = Uniform(), sine = std::sqrt(1 - cosine * cosine), phi = kTwoPi * Uniform();
     wi_ = {sine * std::cos(phi), sine * std::sin(phi), Uniform() < 0.5 ? cosine : -cosine};
     const double u = Uniform(), psi = kTwoPi * Uniform();
-    const double slope = std::sqrt(beckmann_ ? -std::log1p(-u) : u / (1 - u));
+    const double slope = std::sqrt(beckmann_  ? -std::log1p(-u)
+                                   : student_ ? (gamma_ - 1) * std::expm1(-std::log1p(-u) / (gamma_ - 1))
+                                              : u / (1 - u));
     m_ = Normalized({alpha_x_ * slope * std::cos(psi), alpha_y_ * slope * std::sin(psi), 1});
     facing_ = wi_.z < 0 ? Combine(-1, m_, 0, m_) : m_;
     const double c = Dot(wi_, facing_);
@@ -113,10 +117,10 @@ class Lanes {
     live_ = wo_.z * wi_.z < 0;
   }
 
-  bool beckmann_, isotropic_, reflects_, transmits_;
+  bool beckmann_, isotropic_, student_, reflects_, transmits_;
   std::mt19937_64 random_{20070625};
   std::uniform_real_distribution<double> uniform_{0, 1};
-  double eta_ = 1.5, alpha_x_ = 0.3, alpha_y_ = 0.15, u1_ = 0, u2_ = 0, u3_ = 0, x_ = 0, a_ = 0;
+  double eta_ = 1.5, alpha_x_ = 0.3, alpha_y_ = 0.15, gamma_ = 2.5, u1_ = 0, u2_ = 0, u3_ = 0, x_ = 0, a_ = 0;
   Vec wi_{}, wo_{}, m_{}, facing_{};
   bool live_ = false;
 };

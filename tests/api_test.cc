@@ -204,8 +204,10 @@ void AppendMeanFresnel(std::vector<Row<T>>& rows, std::index_sequence<kPlace...>
 }
 
 template <Normals kNormals>
-using NormalCallsOf = std::conditional_t<kNormals == Normals::kGgx, ggx,
-                                         std::conditional_t<kNormals == Normals::kBeckmann, beckmann, phong>>;
+using NormalCallsOf = std::conditional_t<
+    kNormals == Normals::kGgx, ggx,
+    std::conditional_t<kNormals == Normals::kBeckmann, beckmann,
+                       std::conditional_t<kNormals == Normals::kStudentT, student_t, phong>>>;
 
 // The typed function of a quantity of a distribution with parameters p.
 template <class T, std::size_t kPlace, class... P>
@@ -259,11 +261,9 @@ void AppendNormals(std::vector<Row<T>>& rows, std::index_sequence<kParameter...>
 }
 template <class T, std::size_t... kPlace>
 void AppendAllNormals(std::vector<Row<T>>& rows, std::index_sequence<kPlace...>) {
-  (AppendNormals<T, kPlace>(
-       rows,
-       std::make_index_sequence<
-           Split(kRoughnesses[static_cast<std::size_t>(kNormalKernelPlaces[kPlace].roughness)].parameters)
-               .count>()),
+  (AppendNormals<T, kPlace>(rows,
+                            std::make_index_sequence<Split(kNormalText[kPlace].inputs.view()).count -
+                                                     Split(kNormalText[kPlace].inputs.view()).per_lane>()),
    ...);
 }
 

@@ -176,7 +176,7 @@ double DeclaredError(std::string_view id, Accuracy accuracy = Accuracy::kStandar
 // A distribution of normals with its parameters, as the kernel list names both. Its slopes spread over about
 // scale_x, scale_y.
 struct Distribution {
-  std::string_view family;  // ggx, beckmann, phong
+  std::string_view family;  // ggx, beckmann, phong, student_t
   std::string_view form;    // "", or "_isotropic" for the kernels of one alpha
   std::vector<double> parameters;
   double scale_x, scale_y;
@@ -194,7 +194,9 @@ struct Distribution {
   double LogSlope(const Direction& m) const {
     if (family == "phong") return 1 + parameters[0] / m.z;
     const double u = m.x / (m.z * scale_x), w = m.y / (m.z * scale_y), r = std::sqrt(u * u + w * w);
-    const double radial = family == "ggx" ? 4 * r / (1 + r * r) : 2 * r;
+    const double radial = family == "ggx"         ? 4 * r / (1 + r * r)
+                          : family == "student_t" ? 2 * parameters[0] * r / (parameters[0] - 1 + r * r)
+                                                  : 2 * r;
     return 4 / m.z + radial / (std::min(scale_x, scale_y) * m.z * m.z);
   }
   std::string Text() const {
@@ -225,9 +227,13 @@ inline Distribution Ggx(float alpha_x, float alpha_y) {
 inline Distribution Beckmann(float alpha_x, float alpha_y) {
   return {"beckmann", "", {alpha_x, alpha_y}, alpha_x, alpha_y};
 }
+inline Distribution StudentT(float gamma, float alpha_x, float alpha_y) {
+  return {"student_t", "", {gamma, alpha_x, alpha_y}, alpha_x, alpha_y};
+}
 inline Distribution Isotropic(const Distribution& distribution) {
-  return {
-      distribution.family, "_isotropic", {distribution.scale_x}, distribution.scale_x, distribution.scale_x};
+  std::vector<double> parameters(distribution.parameters.begin(), distribution.parameters.end() - 2);
+  parameters.push_back(distribution.scale_x);
+  return {distribution.family, "_isotropic", parameters, distribution.scale_x, distribution.scale_x};
 }
 inline Distribution Phong(float exponent) {
   const double scale = std::sqrt(2 / (double{exponent} + 2));

@@ -101,6 +101,7 @@ void CheckRow(std::string_view row) {
 TEST(Extremes, AlphaProduct) { CheckRow("alpha-product"); }
 TEST(Extremes, AlphaPeak) { CheckRow("alpha-peak"); }
 TEST(Extremes, LambdaSmall) { CheckRow("lambda-small"); }
+TEST(Extremes, GammaEnds) { CheckRow("gamma-ends"); }
 TEST(Extremes, G1Normal) { CheckRow("g1-normal"); }
 TEST(Extremes, AlphaHuge) { CheckRow("alpha-huge"); }
 TEST(Extremes, AnisoRatio) { CheckRow("aniso-ratio"); }

@@ -20,6 +20,7 @@
 #include "oracle/phong.h"
 #include "oracle/rough_dielectric.h"
 #include "oracle/student.h"
+#include "oracle/student_t.h"
 #include "ulp.h"
 
 namespace microlane::oracle {
@@ -87,6 +88,9 @@ TEST(OracleDistribution, ProjectedAreaIsThatOfTheMacrosurface) {
   }
   ExpectNormalised(Ggx{{0.3, 0.5}}, 0.4, "GGX 0.3 0.5");
   ExpectNormalised(Beckmann{{0.3, 0.5}}, 0.4, "Beckmann 0.3 0.5");
+  for (const double gamma : {1.8, 4.0, 50.0}) {
+    ExpectNormalised(StudentT{gamma, {0.3, 0.5}}, 0.4, "Student-T " + std::to_string(gamma));
+  }
   for (const double exponent : {0.0, 0.5, 10.0, 1e6}) {
     ExpectNormalised(Phong{exponent}, std::sqrt(2 / (exponent + 2)), "Phong " + std::to_string(exponent));
   }
@@ -110,6 +114,7 @@ TEST(OracleMasking, SmithLambdaIsTheVisibleProjectedArea) {
     const std::string what = " alpha " + std::to_string(x) + " " + std::to_string(y);
     ExpectSmith(Ggx{{x, y}}, std::sqrt(x * y), "GGX" + what);
     ExpectSmith(Beckmann{{x, y}}, std::sqrt(x * y), "Beckmann" + what);
+    ExpectSmith(StudentT{2.5, {x, y}}, std::sqrt(x * y), "Student-T" + what);
   }
   for (const double exponent : {0.0, 1.0, 10.0}) {
     ExpectSmith(PhongSmith{{exponent}}, std::sqrt(2 / (exponent + 2)), "Phong " + std::to_string(exponent));
@@ -183,13 +188,17 @@ TEST(OracleMath, StudentDefectIsItsDefinition) {
 TEST(OracleMasking, StudentSlopesAreGgxPhongAndBeckmann) {
   for (const Vec& v : kUnits) {
     const Roughness alpha{0.4, 1.5};
-    ExpectRelative(StudentT{alpha, 2}.Lambda(v), Ggx{alpha}.Lambda(v), 1e-100, "GGX");
+    ExpectRelative(StudentT{2, alpha}.Lambda(v), Ggx{alpha}.Lambda(v), 1e-100, "GGX");
+    ExpectRelative(StudentT{2, alpha}.D(v), Ggx{alpha}.D(v), 1e-100, "D of GGX");
     ExpectRelative(PhongSmith{{0}}.Lambda(v), Ggx{{1, 1}}.Lambda(v), 1e-100, "Phong, e = 0");
     const Real e = 37, same = sqrt(2 / (e + 2));
-    ExpectRelative(StudentT{{same, same}, e / 2 + 2}.Lambda(v), PhongSmith{{e}}.Lambda(v), 1e-100, "Phong");
+    ExpectRelative(StudentT{e / 2 + 2, {same, same}}.Lambda(v), PhongSmith{{e}}.Lambda(v), 1e-100, "Phong");
     const Real a = 1 / sqrt(InverseA2(v, alpha)), gamma = 1e20;
-    ExpectRelative(StudentT{alpha, gamma}.Lambda(v), Beckmann{alpha}.Lambda(v),
+    ExpectRelative(StudentT{gamma, alpha}.Lambda(v), Beckmann{alpha}.Lambda(v),
                    4e-20 * (1 + static_cast<double>(a * a * a * a)), "Beckmann");
+    const double tan2 = static_cast<double>(StretchedTan2(v, alpha));
+    ExpectRelative(StudentT{gamma, alpha}.D(v), Beckmann{alpha}.D(v), 4e-20 * (1 + tan2 * tan2),
+                   "D of Beckmann");
   }
 }
 
@@ -258,6 +267,9 @@ TEST(OracleSampling, NormalsHaveTheDensityDCos) {
   ExpectSamplesItsDensity(Beckmann{{0.2, 0.7}}, "Beckmann");
   ExpectSamplesItsDensity(Widened(Beckmann{{0.2, 0.7}}, -0.3), "Beckmann widened");
   ExpectSamplesItsDensity(Phong{37.5}, "Phong");
+  for (const double gamma : {1.55, 4.0}) {
+    ExpectSamplesItsDensity(StudentT{gamma, {0.2, 0.7}}, "Student-T " + std::to_string(gamma));
+  }
 }
 
 TEST(OracleSampling, VisibleNormalsHaveTheirDensity) {

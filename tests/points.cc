@@ -76,7 +76,7 @@ constexpr double kTwoPi = 6.283185307179586;
 constexpr double kLargestU = 1 - 0x1p-24;
 constexpr double kSmallestCosine = 1e-7;
 
-enum class Distribution { kGgx, kBeckmann, kPhong };
+enum class Distribution { kGgx, kBeckmann, kPhong, kStudentT };
 
 // What the points of a kernel are made of.
 struct Shape {
@@ -107,9 +107,10 @@ Shape MakeShape(std::size_t kernel) {
     shape.field[i] = static_cast<Field>(field);
     shape.has[field] = true;
   }
-  shape.distribution = shape.has[kExponent]       ? Distribution::kPhong
-                       : Contains(id, "beckmann") ? Distribution::kBeckmann
-                                                  : Distribution::kGgx;
+  shape.distribution = shape.has[kExponent]        ? Distribution::kPhong
+                       : Contains(id, "beckmann")  ? Distribution::kBeckmann
+                       : Contains(id, "student_t") ? Distribution::kStudentT
+                                                   : Distribution::kGgx;
   shape.isotropic = shape.has[kAlpha] || shape.has[kExponent];
   shape.pairs = shape.has[kWox];
   shape.samples = shape.has[kWix] && shape.has[kU1];
@@ -194,6 +195,9 @@ Vector FromUnitView(const Shape& shape, const Scene& scene, const Vector& v) {
   return Normalized({x, y, z});
 }
 
+// r^2 of Student-T slopes of unit roughness, of which u lies below, -log(1 - u) = log.
+double StudentRadius2(double gamma, double log) { return (gamma - 1) * std::expm1(log / (gamma - 1)); }
+
 // The normal that the samplers make of u1 and u2.
 Vector SampledNormal(const Shape& shape, const Scene& scene) {
   const double u = std::min(scene[kU1], kLargestU), phi = kTwoPi * scene[kU2];
@@ -204,6 +208,9 @@ Vector SampledNormal(const Shape& shape, const Scene& scene) {
       break;
     case Distribution::kBeckmann:
       radius = std::sqrt(-std::log1p(-u));
+      break;
+    case Distribution::kStudentT:
+      radius = std::sqrt(StudentRadius2(scene[kGamma], -std::log1p(-u)));
       break;
     case Distribution::kPhong:
       return FromCosine(std::exp(std::log(std::max(u, 1e-300)) / (scene[kExponent] + 2)), phi);
@@ -486,11 +493,16 @@ class SceneMaker {
   // Slopes in units of the roughness, heavy-tailed.
   double SlopeRadius() {
     const double u = random_.Uniform();
-    const double largest = shape_.distribution == Distribution::kGgx ? 1e4 : 10.5;
+    const bool student = shape_.distribution == Distribution::kStudentT;
+    const double largest = shape_.distribution == Distribution::kGgx ? 1e4
+                           : student ? std::sqrt(std::min(1e8, StudentRadius2(scene_[kGamma], 110)))
+                                     : 10.5;
     if (u < 0.4) return random_.LogUniform(1e-4, largest);
     if (u < 0.6) return largest * random_.Uniform() * random_.Uniform();
     const double v = random_.Uniform();
-    return shape_.distribution == Distribution::kGgx ? std::sqrt(v / (1 - v)) : std::sqrt(-std::log1p(-v));
+    return shape_.distribution == Distribution::kGgx ? std::sqrt(v / (1 - v))
+           : student ? std::sqrt(StudentRadius2(scene_[kGamma], -std::log1p(-v)))
+                     : std::sqrt(-std::log1p(-v));
   }
 
   Vector LobeNormal() {
@@ -1290,6 +1302,34 @@ class ExtremeMaker {
             const Vector v = mu == 0 ? Vector{0.6, -0.8, 0} : FromSlopes(0.6 * slope, -0.8 * slope);
             Put(scene, kVx, Single(side * v));
             Add("lambda-small", "Student-T slopes from grazing to the normal", scene);
+          }
+        }
+      }
+    }
+    if (Has({kAlpha, kAlphaX})) StudentTails();
+  }
+
+  // Normals and random numbers from the middle of the lobe to its ends, for the longest tails, GGX and both
+  // sides of it, and what is next to Beckmann.
+  void StudentTails() {
+    Scene scene = Base();
+    for (const double gamma : {1.55, 1.9999, 2.0, 2.0001, 4.0, 50.0, 1e4, 0x1p24, 1e10}) {
+      scene[kGamma] = static_cast<float>(gamma);
+      for (const double alpha : {1e-5, 0.3, 1.0, 1e2}) {
+        SetAlpha(scene, alpha, 0.5 * alpha);
+        for (const double cosine : {1.0, 0.5, 1e-3, 1e-7, 0.0, -0.5}) {
+          const Vector v = AtHeight(cosine, 0.3);
+          for (const double radius : {0.0, 1e-4, 0.5, 1.0, 3.0, 8.0, 10.0, 30.0, 1e3, 1e7}) {
+            if (shape_.has[kU1]) continue;
+            Put(scene, kVx, Single(v));
+            Put(scene, kMx, Single(Normal(scene, radius, 0.3 + radius)));
+            Add("gamma-ends", "gamma 1.55 to 1e10, from the normal to the horizon", scene);
+          }
+          for (const double u1 : {0.0, 0x1p-149, 0x1p-24, 1e-3, 0.3, 0.9, 0.999, 1 - 0x1p-20, kLargestU}) {
+            if (!shape_.has[kU1]) continue;
+            Put(scene, kVx, Single(v));
+            scene[kU1] = u1;
+            Add("gamma-ends", "gamma 1.55 to 1e10, from the normal to the horizon", scene);
           }
         }
       }

@@ -18,6 +18,7 @@
 #include "microlane/half_vector-inl.h"
 #include "microlane/masking-inl.h"
 #include "microlane/phong-inl.h"
+#include "microlane/student_t-inl.h"
 #include "src/distribution_kernels-inl.h"
 #include "src/rough_diffuse_kernels-inl.h"
 #include "src/rough_surface_kernels-inl.h"
@@ -217,7 +218,8 @@ Cases MakeCases() {
 
 // Every lane function with sums of products of its own.
 Cases CasesOnTarget() {
-  constexpr Normals ggx = Normals::kGgx, beckmann = Normals::kBeckmann, phong = Normals::kPhong;
+  constexpr Normals ggx = Normals::kGgx, beckmann = Normals::kBeckmann, phong = Normals::kPhong,
+                    student_t = Normals::kStudentT;
   return MakeCases<
       NormalCase<Ggx, ggx, NormalQuantity::kD>, NormalCase<Ggx, ggx, NormalQuantity::kLambda>,
       NormalCase<Ggx, ggx, NormalQuantity::kG1>, NormalCase<Ggx, ggx, NormalQuantity::kSampleNormal>,
@@ -237,6 +239,11 @@ Cases CasesOnTarget() {
       NormalCase<Phong, phong, NormalQuantity::kD, RoughnessKind::kExponent>,
       NormalCase<Phong, phong, NormalQuantity::kG1, RoughnessKind::kExponent>,
       NormalCase<Phong, phong, NormalQuantity::kSampleNormal, RoughnessKind::kExponent>, PhongLambdaCase,
+      NormalCase<StudentT<false>, student_t, NormalQuantity::kD>,
+      NormalCase<StudentT<false>, student_t, NormalQuantity::kLambda>,
+      NormalCase<StudentT<false>, student_t, NormalQuantity::kG1>,
+      NormalCase<StudentT<false>, student_t, NormalQuantity::kSampleNormal>,
+      NormalCase<StudentT<false>, student_t, NormalQuantity::kDVisible>,
       FresnelCase<FresnelPart::kUnpolarised>, FresnelCase<FresnelPart::kS>, FresnelCase<FresnelPart::kP>,
       FresnelCase<FresnelPart::kTransmittance>, ConductorCase, SchlickCase, VCavityCase, SchlickSmithCase,
       KelemenCase, JointCase<JointForm::kHeight>, JointCase<JointForm::kDirection>,

@@ -47,6 +47,11 @@ std::vector<NormalCase> NormalCases() {
     for (const float exponent : {0.0f, 0.5f, 6.0f, 48.0f, 798.0f}) {
       cases.push_back({Phong(exponent), 0, accuracy});
     }
+    for (const float gamma : {1.55f, 2.0f, 4.0f, 50.0f}) {
+      for (const auto& alpha : {std::pair(0.05f, 0.05f), std::pair(0.3f, 0.3f), std::pair(1.0f, 0.1f)}) {
+        cases.push_back({StudentT(gamma, alpha.first, alpha.second), 0, accuracy});
+      }
+    }
   }
   return cases;
 }
@@ -92,6 +97,10 @@ std::vector<VisibleCase> VCavityCases() {
     distributions.push_back(make(0.05f, 1));
   }
   for (const float exponent : {798.0f, 6.0f, 0.0f}) distributions.push_back(Phong(exponent));
+  for (const float gamma : {1.55f, 4.0f, 50.0f}) {
+    distributions.push_back(StudentT(gamma, 0.3f, 0.3f));
+    distributions.push_back(StudentT(gamma, 0.1f, 1));
+  }
   // Not beyond: next to v.m = 0 the density rises from 0 within cos(theta_v), which cells do not resolve.
   constexpr double kViews[][2] = {{0, 1}, {30, 1}, {60, 1}, {85, 1}, {70, -1}};
   std::vector<VisibleCase> cases;
@@ -1160,6 +1169,11 @@ TEST(Samplers, EdgesOfTheRandomNumbersGiveUnitVectors) {
       distributions.push_back(make(1e-4f, 1.0f));
     }
     for (const float exponent : {0.0f, 20.0f, 2e10f}) distributions.push_back(Phong(exponent));
+    for (const float gamma : {1.55f, 4.0f, 1e10f}) {
+      for (const float alpha : {1e-5f, 0.3f, 100.0f}) {
+        distributions.push_back(StudentT(gamma, alpha, alpha));
+      }
+    }
     for (const Distribution& distribution : distributions) {
       const std::string family(distribution.family);
       for (const float widening_cos : {0.0f, 1e-7f, 0.5f, 1.0f, -1.0f}) {
@@ -1180,7 +1194,7 @@ TEST(Samplers, EdgesOfTheRandomNumbersGiveUnitVectors) {
         }
       }
       for (const double vz : {1.0, 0.5, 1e-3, 1e-7, 1e-42, 0.0, -0.0, -1e-7, -0.5, -1.0}) {
-        if (family == "phong") continue;
+        if (family == "phong" || family == "student_t") continue;
         const double sine = std::sqrt((1 - vz) * (1 + vz));
         const auto at = [&](const char* quantity, std::size_t i) {
           return distribution.Text() +
@@ -1229,6 +1243,7 @@ TEST(Samplers, EdgesOfTheRandomNumbersGiveUnitVectors) {
           }
         }
       }
+      if (family == "student_t") continue;  // no models over it
       for (const float eta : {1.5f, 1 / 1.5f, 1.0f, 1.0003f, 4.0f}) {
         for (const double theta : {0.0, 30.0, 41.8, 60.0, 85.0, 89.99}) {
           for (const double side : {1.0, -1.0}) {

@@ -126,6 +126,30 @@ constexpr ScalarBound kScalarBounds[] = {
     {"beckmann.D_visible_v_cavity_isotropic", 0.51, 20},
     {"beckmann.sample_visible_normal_v_cavity", 0.51, 24},
     {"beckmann.sample_visible_normal_v_cavity_isotropic", 0.51, 24},
+    {"student_t.D", 0.51, 10},
+    {"student_t.D_isotropic", 0.51, 10},
+    {"student_t.D_rotated", 0.51, 10},
+    {"student_t.D_off_centre", 0.51, 10},
+    {"student_t.Lambda", 0.51, 16},
+    {"student_t.Lambda_isotropic", 0.51, 16},
+    {"student_t.Lambda_rotated", 0.51, 2400},
+    {"student_t.Lambda_off_centre", 0.51, 2400},
+    {"student_t.G1", 0.51, 12},
+    {"student_t.G1_isotropic", 0.51, 12},
+    {"student_t.G1_rotated", 0.51, 16},
+    {"student_t.G1_off_centre", 0.51, 16},
+    {"student_t.D_visible", 0.51, 20},
+    {"student_t.D_visible_isotropic", 0.51, 20},
+    {"student_t.D_visible_rotated", 0.51, 20},
+    {"student_t.D_visible_off_centre", 0.51, 20},
+    {"student_t.sample_normal", 0.51, 64},
+    {"student_t.sample_normal_isotropic", 0.51, 64},
+    {"student_t.sample_normal_rotated", 0.51, 512},
+    {"student_t.sample_normal_off_centre", 0.51, 512},
+    {"student_t.D_visible_v_cavity", 0.51, 20},
+    {"student_t.D_visible_v_cavity_isotropic", 0.51, 20},
+    {"student_t.sample_visible_normal_v_cavity", 0.51, 64},
+    {"student_t.sample_visible_normal_v_cavity_isotropic", 0.51, 64},
     {"phong.D_visible_v_cavity", 3, 5},
     {"phong.sample_visible_normal_v_cavity", 0.51, 6},
     {"masking.v_cavity", 0.51, 0.51},
@@ -307,6 +331,8 @@ class Generator {
       scale_x = scale_y = 1;
     } else if (Has("beckmann")) {
       radius = std::sqrt(-std::log(u));
+    } else if (Has("student_t")) {
+      radius = std::sqrt((gamma_ - 1) * std::expm1(-std::log(u) / (gamma_ - 1)));
     } else {
       radius = std::sqrt((1 - u) / u);
     }
@@ -317,7 +343,7 @@ class Generator {
   }
 
   void DrawParameters() {
-    if (inputs_.name[inputs_.count - 1] == "gamma") {
+    if (std::count(inputs_.name.begin(), inputs_.name.end(), "gamma") > 0) {
       gamma_ = static_cast<float>(Chance(0.1) ? 2 : 1.5 + LogUniform(0.0500001, Chance(0.3) ? 10 : 1e10));
     }
     alpha_x_ = Alpha();

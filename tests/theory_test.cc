@@ -66,6 +66,10 @@ std::vector<Distribution> AllDistributions() {
   for (const float exponent : {0.0f, 0.5f, 1.0f, 10.0f, 198.0f, 1e3f, 1e6f}) {
     distributions.push_back(Phong(exponent));
   }
+  for (const float gamma : {1.7f, 2.0f, 4.0f, 50.0f, 1e6f}) {
+    distributions.push_back(StudentT(gamma, 0.3f, 0.3f));
+    distributions.push_back(StudentT(gamma, 1.0f, 0.1f));
+  }
   return distributions;
 }
 

@@ -17,7 +17,9 @@ namespace HWY_NAMESPACE {
 namespace {
 
 struct Beckmann {
-  static constexpr bool kHasExponent = true, kMaskingInDouble = true, kDensityOfCosine = false;
+  static constexpr size_t kOwn = 0;
+  static constexpr bool kHasExponent = true, kMaskingInDouble = true, kDensityOfCosine = false,
+                        kLogDensityInDouble = false;
 
   // C^2 of Stretch, kCareful with its rounding error, kept off the underflow where exp(LogDensity) is 0
   // already. CarefulLogDensity sees to H_tail.
@@ -73,6 +75,17 @@ struct Beckmann {
     const Vec<D> a = hn::Mul(hx, ux), b = hn::Mul(hy, uy), c = hn::Mul(hz, uz);
     const Vec<D> c2 = hn::Max(hn::Mul(c, c), Const(d, kIsFloat<D> ? 0x1p-60 : 0x1p-400));
     return hn::Neg(hn::Div(hn::MulAdd(a, a, hn::Mul(b, b)), c2));
+  }
+
+  // exp is 0 long before z^2 gets to its limits.
+  template <class DD>
+  static HWY_INLINE Vec<DD> UnitDensity(DD dd, Vec<DD>, Vec<DD>, Vec<DD> z) {
+    return hn::Max(hn::Mul(z, z), Const(dd, 0x1p-36));
+  }
+  template <class DD>
+  static HWY_INLINE Vec<DD> UnitLogDensity(DD dd, Vec<DD> x, Vec<DD> y, Vec<DD> z) {
+    const Vec<DD> z2 = hn::Max(hn::Mul(z, z), Const(dd, 0x1p-60));
+    return hn::Neg(hn::Div(hn::MulAdd(x, x, hn::Mul(y, y)), z2));
   }
 
   // Lambda = factor exp(-a^2) / vz with a = vz/s (Heitz 2014 Eq. 69): factor = (1 - sqrt(pi) a erfcx(a)) s /

@@ -1,11 +1,13 @@
-// Lane functions common to every distribution of normals, over a policy `Dist` with parameters p... (alpha;
-// alpha_x, alpha_y; exponent):
+// Lane functions common to every distribution of normals, over a policy `Dist` with parameters p...: kOwn of
+// its own shape (gamma), then its roughness (alpha; alpha_x, alpha_y; exponent; ...):
 //
 // Density: e + e_tail and w such that D(H/|H|) / |H|^4 = w exp(LogDensity) / (pi e^2) for any half vector H.
 // Where kDensityOfCosine, Norm instead: pi D = Norm exp(LogDensity).
 //
 // LogDensity: used where kHasExponent. CarefulLogDensity: the same as two numbers in float lanes, because its
-// rounding error is multiplied by up to 104.
+// rounding error is multiplied by up to 104; kLogDensityInDouble: LogDensity in double lanes instead.
+//
+// UnitDensity, UnitLogDensity: e and LogDensity of unit roughness, where slopes are (x, y)/z; double lanes.
 //
 // Masking: |vz| (1 + 2 Lambda(v)) of z = |vz|; finite at grazing.
 //
@@ -17,12 +19,26 @@
 #define MICROLANE_DISTRIBUTION_INL_H_
 #endif
 
+#include <type_traits>
+
 #include "microlane/stretch-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace microlane {
 namespace HWY_NAMESPACE {
 namespace {
+
+// Dist, or what it gives in its place where results are floats or are not.
+template <class Dist, bool kFloat, class = void>
+struct ResultPolicy {
+  using Type = Dist;
+};
+template <class Dist, bool kFloat>
+struct ResultPolicy<Dist, kFloat, std::void_t<typename Dist::template ForResult<kFloat>>> {
+  using Type = typename Dist::template ForResult<kFloat>;
+};
+template <class Dist, bool kFloat>
+using ForResult = typename ResultPolicy<Dist, kFloat>::Type;
 
 // Walter 2007 Eq. 23; Heitz 2014 Eq. 99; of V-cavities min(1, 2 hz |i.n|/i.h, 2 hz |o.n|/o.h).
 enum class JointMasking { kSeparable, kHeightCorrelated, kVCavity };
@@ -44,13 +60,53 @@ HWY_INLINE void CarefulLogDensity(D d, Vec<D>& high, Vec<D>& low, Vec<D> r, Vec<
                                   Vec<D> hx, Vec<D> hy, Vec<D> hz, Vec<D> hx_tail, Vec<D> hy_tail,
                                   Vec<D> hz_tail, P... p) {
 #if HWY_NATIVE_FMA
-  (void)e_tail;  // taken from H and e instead
-  Dist::template CarefulLogDensity<kCare>(d, high, low, r, e, hx, hy, hz, hx_tail, hy_tail, hz_tail, p...);
+  constexpr bool kInDouble = Dist::kLogDensityInDouble;
 #else
-  (void)e;
-  InDouble2<LogDensityOp<Dist>>(d, high, low, hx, hy, hz, hx_tail, hy_tail, hz_tail, p...);
-  low = hn::Sub(low, hn::Mul(hn::Add(e_tail, e_tail), r));
+  constexpr bool kInDouble = true;
 #endif
+  if constexpr (kInDouble) {
+    InDouble2<LogDensityOp<Dist>>(d, high, low, hx, hy, hz, hx_tail, hy_tail, hz_tail, p...);
+    low = hn::Sub(low, hn::Mul(hn::Add(e_tail, e_tail), r));
+  } else {
+    // e_tail is taken from H and e.
+    Dist::template CarefulLogDensity<kCare>(d, high, low, r, e, hx, hy, hz, hx_tail, hy_tail, hz_tail, p...);
+  }
+}
+
+// 1/(area e^2) of Dist::UnitDensity's e: what multiplies exp(LogDensity) then.
+template <class Dist>
+struct ShearedDensityOp {
+  template <class DD, class... P>
+  static HWY_INLINE void Run(DD dd, Vec<DD>& density, Vec<DD>& unused, Vec<DD> hx, Vec<DD> hy, Vec<DD> hz,
+                             P... p) {
+    Vec<DD> x, y, area;
+    OfRoughness<Dist>(
+        [&](auto... roughness) HWY_ATTR { UnitSlopes(dd, x, y, area, hx, hy, hz, roughness...); }, p...);
+    const Vec<DD> e =
+        OfShape<Dist>([&](auto... own) HWY_ATTR { return Dist::UnitDensity(dd, x, y, hz, own...); }, p...);
+    density = unused = hn::Div(Const(dd, 1), hn::Mul(area, hn::Mul(e, e)));
+  }
+};
+
+// LogDensity of Heitz 2014 Eqs. 92, 95 as high + low.
+template <class Dist>
+struct ShearedLogDensityOp {
+  template <class DD, class... P>
+  static HWY_INLINE void Run(DD dd, Vec<DD>& high, Vec<DD>& low, Vec<DD> hx, Vec<DD> hy, Vec<DD> hz, P... p) {
+    Vec<DD> x, y, area;
+    OfRoughness<Dist>(
+        [&](auto... roughness) HWY_ATTR { UnitSlopes(dd, x, y, area, hx, hy, hz, roughness...); }, p...);
+    const Vec<DD> log =
+        OfShape<Dist>([&](auto... own) HWY_ATTR { return Dist::UnitLogDensity(dd, x, y, hz, own...); }, p...);
+    SplitHigh(dd, log, high, low);
+  }
+};
+
+// MesosurfaceCosine of the roughness among p.
+template <class Dist, class D, class... P>
+HWY_INLINE Vec<D> CosineOf(D d, Vec<D> vx, Vec<D> vy, Vec<D> vz, P... p) {
+  return OfRoughness<Dist>(
+      [&](auto... roughness) HWY_ATTR { return MesosurfaceCosine(d, vx, vy, vz, roughness...); }, p...);
 }
 
 // factor pi D(m) (Walter 2007 Eqs. 25, 30, 33; Heitz 2014 Eqs. 82, 85) of a normal as given, not normalised.
@@ -58,14 +114,13 @@ template <class Dist, Accuracy A, class D, class... P>
 HWY_INLINE Vec<D> TimesPiNormalDensity(D d, Vec<D> factor, Vec<D> mx, Vec<D> my, Vec<D> mz, P... p) {
   if constexpr (Dist::kDensityOfCosine) {
     return Dist::template TimesPiNormalDensity<A>(d, factor, mz, p...);
-  } else if constexpr (kShears<P...>) {
-    // A Gaussian of the slopes, or a power of 1 + tan^2.
+  } else if constexpr (kShears<Dist, P...>) {
     Vec<D> q, unused;
-    InDouble2<ShearedDensityOp<!Dist::kHasExponent>>(d, q, unused, mx, my, mz, p...);
+    InDouble2<ShearedDensityOp<Dist>>(d, q, unused, mx, my, mz, p...);
     q = hn::Mul(q, factor);
     if constexpr (Dist::kHasExponent) {
       Vec<D> high, low;
-      InDouble2<ShearedLogDensityOp>(d, high, low, mx, my, mz, p...);
+      InDouble2<ShearedLogDensityOp<Dist>>(d, high, low, mx, my, mz, p...);
       q = ExpTimes<A>(d, high, low, q);
     }
     return ZeroIf(hn::Le(mz, hn::Zero(d)), q);
@@ -129,9 +184,9 @@ struct LambdaOp {
 template <class Dist, Accuracy A, class D, class... P>
 HWY_INLINE Vec<D> Lambda(D d, Vec<D> vx, Vec<D> vy, Vec<D> vz, P... p) {
   Vec<D> lambda, unused;
-  if constexpr (kShears<P...>) {
-    constexpr bool kHasMean = sizeof...(P) > 3;
-    Precisely<LambdaOp<Dist>, kHasMean ? Accuracy::kStandard : A>(d, lambda, unused, vx, vy, vz, p...);
+  if constexpr (kShears<Dist, P...>) {
+    Precisely<LambdaOp<Dist>, kHasMean<Dist, P...> ? Accuracy::kStandard : A>(d, lambda, unused, vx, vy, vz,
+                                                                              p...);
   } else {
     LambdaOp<Dist>::template Run<A>(d, lambda, unused, vx, vy, vz, p...);
   }
@@ -155,7 +210,7 @@ template <class Dist>
 struct G1OfViewOp {
   template <Accuracy A, class D, class... P>
   static HWY_INLINE void Run(D d, Vec<D>& g1, Vec<D>& unused, Vec<D> vx, Vec<D> vy, Vec<D> vz, P... p) {
-    const Vec<D> z = hn::Abs(MesosurfaceCosine(d, vx, vy, vz, p...));
+    const Vec<D> z = hn::Abs(CosineOf<Dist>(d, vx, vy, vz, p...));
     g1 = unused =
         Div<A>(d, hn::Add(z, z), hn::Add(z, Dist::template Masking<Care::kCareful, A>(d, vx, vy, z, p...)));
   }
@@ -172,7 +227,7 @@ HWY_INLINE Vec<D> G1(D d, Vec<D> vx, Vec<D> vy, Vec<D> vz, Vec<D> mx, Vec<D> my,
     G1OfViewOp<Dist>::template Run<A>(d, g1, unused, vx, vy, vz, p...);
   }
   Precisely<CarefulDotOp, Accuracy::kStandard>(d, dot, unused, vx, vy, vz, mx, my, mz);
-  vz = MesosurfaceCosine(d, vx, vy, vz, p...);
+  vz = CosineOf<Dist>(d, vx, vy, vz, p...);
   const Vec<D> zero = hn::Zero(d);
   return ZeroIf(hn::Or(hn::Le(FlipSign(d, dot, vz), zero), hn::Eq(vz, zero)), g1);
 }
@@ -184,7 +239,7 @@ struct VisibilityOfDotOp {
   template <Accuracy A, class D, class... P>
   static HWY_INLINE void Run(D d, Vec<D>& visibility, Vec<D>& unused, Vec<D> dot, Vec<D> vx, Vec<D> vy,
                              Vec<D> vz, P... p) {
-    vz = MesosurfaceCosine(d, vx, vy, vz, p...);
+    vz = CosineOf<Dist>(d, vx, vy, vz, p...);
     const Vec<D> z = hn::Abs(vz);
     const Vec<D> facing = hn::IfThenElse(hn::Lt(vz, hn::Zero(d)), hn::Neg(dot), dot);
     visibility = unused = Div<A>(d, hn::Mul(facing, Const(d, 2 / kPi)),
@@ -211,7 +266,7 @@ struct ShearedVisibilityOp {
     Vec<DD> visibility, density;
     VisibilityOp<Dist>::template Run<Accuracy::kStandard>(dd, visibility, unused, vx, vy, vz, mx, my, mz,
                                                           p...);
-    ShearedDensityOp<!Dist::kHasExponent>::Run(dd, density, unused, mx, my, mz, p...);
+    ShearedDensityOp<Dist>::Run(dd, density, unused, mx, my, mz, p...);
     product = unused = hn::Mul(hn::Mul(visibility, Const(dd, 0x1p-40)), density);
   }
 };
@@ -234,12 +289,12 @@ HWY_INLINE Vec<D> TimesVisibility(D d, Vec<D> visibility, Vec<D> mx, Vec<D> my, 
 template <class Dist, Accuracy A, class D, class... P>
 HWY_INLINE Vec<D> VisibleNormalDensity(D d, Vec<D> vx, Vec<D> vy, Vec<D> vz, Vec<D> mx, Vec<D> my, Vec<D> mz,
                                        P... p) {
-  if constexpr (kShears<P...> && A != Accuracy::kFast) {
+  if constexpr (kShears<Dist, P...> && A != Accuracy::kFast) {
     Vec<D> q, unused;
     InDouble2<ShearedVisibilityOp<Dist>>(d, q, unused, vx, vy, vz, mx, my, mz, p...);
     if constexpr (Dist::kHasExponent) {
       Vec<D> high, low;
-      InDouble2<ShearedLogDensityOp>(d, high, low, mx, my, mz, p...);
+      InDouble2<ShearedLogDensityOp<Dist>>(d, high, low, mx, my, mz, p...);
       q = ExpTimes<A>(d, high, low, q);
     }
     return ZeroIf(hn::Or(hn::Le(q, hn::Zero(d)), hn::Le(mz, hn::Zero(d))), q);
@@ -431,8 +486,13 @@ struct ShearedSampleOp {
   template <class DD, class... P>
   static HWY_INLINE void Run(DD dd, Vec<DD>& mx, Vec<DD>& my, Vec<DD>& mz, Vec<DD>& pdf, Vec<DD>& unused0,
                              Vec<DD>& unused1, Vec<DD> u1, Vec<DD> u2, P... p) {
-    Dist::template SampleNormal<Care::kPlain, Accuracy::kStandard>(dd, mx, my, mz, pdf, u1, u2, Const(dd, 1));
-    ShearNormal(dd, mx, my, mz, pdf, p...);
+    const auto of_shape = [&](auto... own) HWY_ATTR {
+      Dist::template SampleNormal<Care::kPlain, Accuracy::kStandard>(dd, mx, my, mz, pdf, u1, u2, own...,
+                                                                     Const(dd, 1));
+    };
+    OfShape<Dist>(of_shape, p...);
+    OfRoughness<Dist>([&](auto... roughness) HWY_ATTR { ShearNormal(dd, mx, my, mz, pdf, roughness...); },
+                      p...);
     unused0 = unused1 = pdf;
   }
 };
@@ -442,10 +502,14 @@ struct ShearedSampleVisibleOp {
   static HWY_INLINE void Run(DD dd, Vec<DD>& mx, Vec<DD>& my, Vec<DD>& mz, Vec<DD>& pdf, Vec<DD>& unused0,
                              Vec<DD>& unused1, Vec<DD> vx, Vec<DD> vy, Vec<DD> vz, Vec<DD> u1, Vec<DD> u2,
                              P... p) {
-    StretchView(dd, vx, vy, vz, p...);
-    Dist::template SampleVisibleNormal<false, Accuracy::kStandard>(dd, mx, my, mz, pdf, vx, vy, vz, u1, u2,
-                                                                   Const(dd, 1));
-    ShearNormal(dd, mx, my, mz, pdf, p...);
+    OfRoughness<Dist>([&](auto... roughness) HWY_ATTR { StretchView(dd, vx, vy, vz, roughness...); }, p...);
+    const auto of_shape = [&](auto... own) HWY_ATTR {
+      Dist::template SampleVisibleNormal<false, Accuracy::kStandard>(dd, mx, my, mz, pdf, vx, vy, vz, u1, u2,
+                                                                     own..., Const(dd, 1));
+    };
+    OfShape<Dist>(of_shape, p...);
+    OfRoughness<Dist>([&](auto... roughness) HWY_ATTR { ShearNormal(dd, mx, my, mz, pdf, roughness...); },
+                      p...);
     unused0 = unused1 = pdf;
   }
 };
@@ -454,7 +518,7 @@ struct ShearedSampleVisibleOp {
 template <class Dist, Accuracy A, class D, class... P>
 HWY_INLINE void SampleNormal(D d, Vec<D>& mx, Vec<D>& my, Vec<D>& mz, Vec<D>& pdf, Vec<D> u1, Vec<D> u2,
                              P... p) {
-  if constexpr (kShears<P...>) {
+  if constexpr (kShears<Dist, P...>) {
     Vec<D> unused0, unused1;
     InDouble6<ShearedSampleOp<Dist>>(d, mx, my, mz, pdf, unused0, unused1, u1, u2, p...);
   } else {
@@ -489,7 +553,7 @@ HWY_INLINE void SampleVCavityNormal(D d, Vec<D>& mx, Vec<D>& my, Vec<D>& mz, Vec
 template <class Dist, bool kBounded, Accuracy A, class D, class... P>
 HWY_INLINE void SampleVisibleNormal(D d, Vec<D>& mx, Vec<D>& my, Vec<D>& mz, Vec<D>& pdf, Vec<D> vx,
                                     Vec<D> vy, Vec<D> vz, Vec<D> u1, Vec<D> u2, P... p) {
-  if constexpr (kShears<P...>) {
+  if constexpr (kShears<Dist, P...>) {
     static_assert(!kBounded, "the smaller cap is of stretched surfaces");
     Vec<D> unused0, unused1;
     InDouble6<ShearedSampleVisibleOp<Dist>>(d, mx, my, mz, pdf, unused0, unused1, vx, vy, vz, u1, u2, p...);

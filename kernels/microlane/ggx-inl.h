@@ -15,6 +15,7 @@ namespace HWY_NAMESPACE {
 namespace {
 
 struct Ggx {
+  static constexpr size_t kOwn = 0;
   static constexpr bool kHasExponent = false, kMaskingInDouble = false, kDensityOfCosine = false;
 
   // A^2 + B^2 + C^2 of Stretch as an unevaluated sum. kCompensated: of H + H_tail, rounded to e.
@@ -47,6 +48,11 @@ struct Ggx {
       TwoSum(s, c2, e, e_tail);
       e_tail = hn::Add(hn::Add(e_tail, s_tail), hn::Add(hn::Add(a2_tail, b2_tail), c2_tail));
     }
+  }
+
+  template <class D>
+  static HWY_INLINE Vec<D> UnitDensity(D, Vec<D> x, Vec<D> y, Vec<D> z) {
+    return hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z)));
   }
 
   // |vz| (1 + 2 Lambda) = sqrt(vz^2 + (alpha_x vx)^2 + (alpha_y vy)^2), from Heitz 2014 Eq. 86.

@@ -262,10 +262,10 @@ inline constexpr Kernel kComponentKernels[] = {
 };
 
 // Distributions of normals, by their places in kNormalFamilies and kModelFamilies.
-enum class Normals { kGgx, kBeckmann, kPhong };
+enum class Normals { kGgx, kBeckmann, kPhong, kStudentT };
 
-// Parameters of a distribution, by their places in kRoughnesses. All but the exponent are linear maps of the slopes of
-// one distribution of unit roughness (Heitz 2014 section 5).
+// Parameters of a distribution behind those of its own shape, by their places in kRoughnesses. All but the exponent are
+// linear maps of the slopes of one distribution of unit roughness (Heitz 2014 section 5).
 enum class RoughnessKind { kAnisotropic, kIsotropic, kRotated, kOffCentre, kExponent };
 
 struct RoughnessRow {
@@ -332,7 +332,7 @@ inline constexpr std::string_view kG1Note = "chi+((v.m)/(v.n)) / (1 + Lambda(v))
 inline constexpr std::string_view kDVisibleNote =
     "D_v(m) = G1(v,m) |v.m| D(m) / |v.n| = 2 (v.m) D(m) / (|vz| + sqrt(vz^2 + (alpha_x vx)^2 + (alpha_y vy)^2)); v of "
     "either side, -v in place of v below; vz = 0 counts as above. 0 where v.m and vz differ in sign, and where mz <= 0.";
-inline constexpr std::string_view kDVisibleBeckmannNote =
+inline constexpr std::string_view kDVisibleExponentNote =
     "D_v(m) = G1(v,m) |v.m| D(m) / |v.n|; v of either side, -v in place of v below; vz = 0 counts as above. 0 where v.m and vz "
     "differ in sign, and where mz <= 0. Double lanes round exponents of up to 745 once.";
 inline constexpr std::string_view kSampleVisibleNote =
@@ -371,6 +371,14 @@ inline constexpr std::string_view kSampleVCavityNote =
     "either side; vz = 0 counts as above.";
 inline constexpr std::string_view kSampleGgxNote = "m = normalize(alpha_x r cos(2 pi u2), alpha_y r sin(2 pi u2), 1), r = sqrt(u1/(1 - u1)); pdf = D cos.";
 inline constexpr std::string_view kSampleBeckmannNote = "m = normalize(alpha_x r cos(2 pi u2), alpha_y r sin(2 pi u2), 1), r = sqrt(-log(1 - u1)); pdf = D cos.";
+inline constexpr std::string_view kStudentNote =
+    "Slopes of density 1/(pi alpha_x alpha_y) (1 + (x^2/alpha_x^2 + y^2/alpha_y^2)/(gamma - 1))^-gamma: GGX at gamma = 2, Beckmann as "
+    "gamma grows. Of the direction as given; 0 where mz <= 0. Double lanes round an exponent of up to 745 once.";
+inline constexpr std::string_view kStudentLambdaNote =
+    "Smith's, exactly, of student_t.D's slopes; the same on both sides of the surface; 0 along the normal; the largest finite number "
+    "where the exact value exceeds it (vz = 0). Double lanes round an exponent of up to 745 once.";
+inline constexpr std::string_view kSampleStudentNote =
+    "m = normalize(alpha_x r cos(2 pi u2), alpha_y r sin(2 pi u2), 1), 1 + r^2/(gamma - 1) = (1 - u1)^(-1/(gamma - 1)); pdf = D cos.";
 inline constexpr std::string_view kPhongNote =
     "(exponent + 2)/(2 pi) mz^exponent of mz as given; 0 where mz <= 0. Double lanes round an exponent of up to 745 once.";
 
@@ -388,7 +396,12 @@ struct NormalRow {
   constexpr bool Takes(std::size_t roughness) const { return bounds[roughness].high > 0; }
 };
 
-inline constexpr std::string_view kNormalFamilies[] = {"ggx", "beckmann", "phong"};
+struct NormalFamily {
+  std::string_view id;
+  std::string_view own;  // parameters of its shape, which stand before those of its roughness
+};
+
+inline constexpr NormalFamily kNormalFamilies[] = {{"ggx", ""}, {"beckmann", ""}, {"phong", ""}, {"student_t", "gamma "}};
 
 // Columns of bounds: those of kRoughnesses.
 inline constexpr NormalRow kNormalRows[] = {
@@ -410,7 +423,7 @@ inline constexpr NormalRow kNormalRows[] = {
     {Normals::kBeckmann, NormalQuantity::kD, "D", "Heitz 2014 Eq. 82; Walter 2007 Eq. 25", kStretchedExponent, {{1, 4, 2800, 8, 3000}, {1, 4, 2800, 8, 3000}, {1, 4, 200, 8, 0x1p17}, {1, 4, 200, 8, 0x1p17}}},
     {Normals::kBeckmann, NormalQuantity::kLambda, "Lambda", "Heitz 2014 Eqs. 69, 83", kLambdaExponentNote, {{1, 4, 1700, 8, 2200}, {1, 4, 1700, 8, 2200}, {1, 1, 1700, 1, 50000}, {1, 1, 1, 1, 50000}}},
     {Normals::kBeckmann, NormalQuantity::kG1, "G1", "Walter 2007 Eq. 26, stretched", kG1Note, {{1, 4, 2500, 8, 14}, {1, 4, 2500, 8, 14}, {1, 1, 2500, 1, 64}, {1, 1, 2500, 1, 64}}},
-    {Normals::kBeckmann, NormalQuantity::kDVisible, "D_visible", "Heitz 2014 Eq. 16", kDVisibleBeckmannNote, {{1, 4, 4000, 8, 3000}, {1, 4, 4000, 8, 3000}, {1, 4, 2800, 8, 0x1p17}, {1, 4, 2800, 8, 0x1p17}}},
+    {Normals::kBeckmann, NormalQuantity::kDVisible, "D_visible", "Heitz 2014 Eq. 16", kDVisibleExponentNote, {{1, 4, 4000, 8, 3000}, {1, 4, 4000, 8, 3000}, {1, 4, 2800, 8, 0x1p17}, {1, 4, 2800, 8, 0x1p17}}},
     {Normals::kBeckmann, NormalQuantity::kSampleVisible, "sample_visible_normal", "Heitz 2014 Eq. 16 by the inverse of its cumulative function", kSampleVisibleBeckmannNote, {{1, 24, 3300, 24, 24}, {1, 24, 3300, 24, 24}, {1, 1, 1, 1, 4000}, {1, 1, 1, 1, 4000}}},
     {Normals::kBeckmann, NormalQuantity::kSampleReflection, "sample_visible_reflection", "Heitz 2014 Eqs. 16, 99; Walter 2007 Eqs. 14, 39", kSampleReflectionNote, {{1, 16, 2800, 20, 18}, {1, 16, 2800, 20, 18}}},
     {Normals::kBeckmann, NormalQuantity::kPdfReflection, "pdf_visible_reflection", "Heitz 2014 Eq. 16; Walter 2007 Eq. 14", kPdfReflectionBeckmannNote, {{1, 16, 3400, 24, 5000}, {1, 16, 3400, 24, 5000}}},
@@ -428,6 +441,14 @@ inline constexpr NormalRow kNormalRows[] = {
     {Normals::kPhong, NormalQuantity::kSampleNormal, "sample_normal", "Walter 2007 Eqs. 24, 31, 32", "cos(theta_m) = u1^(1/(exponent + 2)); pdf = D cos. Double lanes round the logarithm of the density once.", {{}, {}, {}, {}, {1, 4, 1200, 8, 128}}},
     {Normals::kPhong, NormalQuantity::kDVisibleVCavity, "D_visible_v_cavity", "Heitz 2014 Eqs. 16, 49", kDVisibleVCavityNote, {{}, {}, {}, {}, {1, 4, 4000, 8, 5000}}},
     {Normals::kPhong, NormalQuantity::kSampleVCavity, "sample_visible_normal_v_cavity", "Heitz and d'Eon 2014; Heitz 2014 Eqs. 16, 49", kSampleVCavityNote, {{}, {}, {}, {}, {1, 4, 3000, 8, 64}}},
+
+    {Normals::kStudentT, NormalQuantity::kD, "D", "d'Eon 2023; Burley 2012; Heitz 2014 Eqs. 65, 73", kStudentNote, {{1, 4, 2800, 8, 5000}, {1, 4, 2800, 8, 5000}, {1, 4, 200, 8, 0x1p17}, {1, 4, 200, 8, 0x1p17}}},
+    {Normals::kStudentT, NormalQuantity::kLambda, "Lambda", "Heitz 2014 Eqs. 41-43, 73", kStudentLambdaNote, {{1, 1, 1, 1, 6000}, {1, 1, 1, 1, 6000}, {1, 1, 1, 1, 6000}, {1, 1, 1, 1, 6000}}},
+    {Normals::kStudentT, NormalQuantity::kG1, "G1", "Heitz 2014 Eqs. 41-43, 80", kG1Note, {{1, 1, 2600, 1, 24}, {1, 1, 2600, 1, 24}, {1, 1, 2600, 1, 32}, {1, 1, 2600, 1, 32}}},
+    {Normals::kStudentT, NormalQuantity::kDVisible, "D_visible", "Heitz 2014 Eq. 16", kDVisibleExponentNote, {{1, 4, 4096, 8, 5000}, {1, 4, 4096, 8, 5000}, {1, 4, 2800, 8, 0x1p17}, {1, 4, 2800, 8, 0x1p17}}},
+    {Normals::kStudentT, NormalQuantity::kSampleNormal, "sample_normal", "Walter 2007 Eq. 24; d'Eon 2023; Burley 2012, stretched", kSampleStudentNote, {{1, 4, 2400, 8, 32}, {1, 4, 2400, 8, 32}, {1, 1, 1, 1, 40000}, {1, 1, 1, 1, 40000}}},
+    {Normals::kStudentT, NormalQuantity::kDVisibleVCavity, "D_visible_v_cavity", "Heitz 2014 Eqs. 16, 49", kDVisibleVCavityNote, {{1, 4, 4000, 8, 5000}, {1, 4, 4000, 8, 5000}}},
+    {Normals::kStudentT, NormalQuantity::kSampleVCavity, "sample_visible_normal_v_cavity", "Heitz and d'Eon 2014; Heitz 2014 Eqs. 16, 49", kSampleVCavityNote, {{1, 4, 3000, 8, 32}, {1, 4, 3000, 8, 32}}},
 };
 
 // Whether sampling of visible normals is among a distribution's quantities.
@@ -543,19 +564,19 @@ inline constexpr MeanFresnelQuantity kMeanFresnelQuantities[] = {
 };
 inline constexpr std::size_t kNumMeanFresnelQuantities = std::size(kMeanFresnelQuantities);
 
-// A distribution of normals in the models over it.
+// A distribution of normals in the models over it; without bounds it has none of a model.
 struct ModelFamily {
   std::string_view suffix;      // of the models' ids, before the '.'
   std::string_view parameters;  // of the distribution
   std::string_view source;      // its equations
-  Bounds value;                 // values and densities that transmit
-  Bounds eval_reflection, pdf_reflection, sample;
-  Bounds reflector_value[kNumReflectors], reflector_sample[kNumReflectors];
-  // NOLINTNEXTLINE(readability-redundant-member-init): rows without visible normals leave it out
+  // NOLINTBEGIN(readability-redundant-member-init): rows may leave them out
+  Bounds value{};               // values and densities that transmit
+  Bounds eval_reflection{}, pdf_reflection{}, sample{};
+  Bounds reflector_value[kNumReflectors]{}, reflector_sample[kNumReflectors]{};
   Bounds reflector_sample_v_cavity[kNumReflectors]{}, reflector_sample_visible[kNumReflectors]{},
       sample_visible{}, diffuse{};
-  // NOLINTNEXTLINE(readability-redundant-member-init): rows without visible normals leave it out
   Bounds mean_fresnel[kNumMeanFresnelQuantities]{};
+  // NOLINTEND(readability-redundant-member-init)
 
   constexpr const Bounds& BoundsOf(const DielectricQuantity& q) const {
     return q.what == DielectricQuantity::kSample ? (q.visible ? sample_visible : sample)
@@ -589,6 +610,7 @@ inline constexpr ModelFamily kModelFamilies[] = {
      {{1, 15, 4500, 20, 4800}, {1, 24, 7000, 24, 4800}, {1, 17, 7000, 22, 4800}},
      {{1, 6, 2700, 8, 6}, {1, 6, 2700, 8, 6}, {1, 6, 2700, 8, 6}},
      {{1, 16, 2800, 24, 4000}, {1, 16, 2800, 24, 4000}, {1, 16, 2800, 24, 4000}}},
+    {"_student_t", "gamma alpha_x alpha_y", "Student-T: d'Eon 2023; Burley 2012"},
 };
 // clang-format on
 
@@ -614,10 +636,14 @@ constexpr std::size_t CountQuantities(const DielectricQuantity (&quantities)[kSi
   return count;
 }
 constexpr std::size_t NumDielectricQuantities(Normals normals) {
-  return CountQuantities(kDielectricQuantities, normals);
+  return kModelFamilies[static_cast<std::size_t>(normals)].value.high > 0
+             ? CountQuantities(kDielectricQuantities, normals)
+             : 0;
 }
 constexpr std::size_t NumReflectorQuantities(Normals normals) {
-  return CountQuantities(kReflectorQuantities, normals);
+  return kModelFamilies[static_cast<std::size_t>(normals)].reflector_value[0].high > 0
+             ? CountQuantities(kReflectorQuantities, normals)
+             : 0;
 }
 constexpr std::size_t NumReflectorKernels(Normals normals) {
   return kNumReflectors * NumReflectorQuantities(normals);
@@ -662,7 +688,7 @@ inline constexpr std::size_t kNumDielectricKernels = kFirstReflectorKernel - kFi
 inline constexpr std::size_t kNumReflectorKernels = kFirstDiffuseKernel - kFirstReflectorKernel;
 inline constexpr std::size_t kNumDiffuseKernels = kFirstMeanFresnelKernel - kFirstDiffuseKernel;
 inline constexpr std::size_t kNumMeanFresnelKernels = kNumKernels - kFirstMeanFresnelKernel;
-inline constexpr std::size_t kMaxInputs = 11;
+inline constexpr std::size_t kMaxInputs = 12;
 inline constexpr std::size_t kMaxOutputs = 6;
 
 // A rough dielectric's kernel: its distribution of normals and place in kDielectricQuantities.
@@ -805,11 +831,11 @@ constexpr auto MakeNormalText() {
   for (std::size_t i = 0; i < kNumNormalKernels; ++i) {
     const NormalRow& row = kNormalRows[kNormalKernelPlaces[i].row];
     const RoughnessRow& kind = kRoughnesses[static_cast<std::size_t>(kNormalKernelPlaces[i].roughness)];
-    const std::string_view family = kNormalFamilies[static_cast<std::size_t>(row.normals)];
-    text[i] = {JoinedText(family, ".", row.name, kind.suffix),
+    const NormalFamily& family = kNormalFamilies[static_cast<std::size_t>(row.normals)];
+    text[i] = {JoinedText(family.id, ".", row.name, kind.suffix),
                row.what == NormalQuantity::kOwn
                    ? JoinedText(row.own_inputs)
-                   : JoinedText(kNormalQuantities[row.what].lanes, " | ", kind.parameters)};
+                   : JoinedText(kNormalQuantities[row.what].lanes, " | ", family.own, kind.parameters)};
   }
   return text;
 }

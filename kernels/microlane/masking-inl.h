@@ -8,7 +8,6 @@
 #endif
 
 #include "microlane/distribution-inl.h"
-#include "microlane/student-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace microlane {
@@ -192,25 +191,6 @@ HWY_INLINE Vec<D> JointG2(D d, Vec<D> lambda_i, Vec<D> lambda_o, Vec<D> wix, Vec
   }
   return g2;
 }
-
-// Smith's Lambda of Student-T slopes, 1/(pi alpha_x alpha_y) (1 + (x^2/alpha_x^2 + y^2/alpha_y^2)/(gamma -
-// 1))^-gamma. In double lanes: the slopes' scale spans half of float's range.
-template <bool kFloatResult>
-struct StudentLambdaOp {
-  template <Accuracy A, class D>
-  static HWY_INLINE void Run(D d, Vec<D>& lambda, Vec<D>& unused, Vec<D> vx, Vec<D> vy, Vec<D> vz,
-                             Vec<D> alpha_x, Vec<D> alpha_y, Vec<D> gamma) {
-    const Vec<D> z = hn::Abs(vz);
-    const Vec<D> s2 = hn::Max(
-        hn::Mul(hn::Sub(gamma, Const(d, 1)), ProjectedRoughness2<Care::kPlain>(d, vx, vy, alpha_x, alpha_y)),
-        Const(d, 0x1p-1000));
-    Vec<D> factor, power;
-    StudentLambdaFactors<StudentFit<A, kFloatResult>, A>(d, factor, power, s2, z,
-                                                         hn::Sub(gamma, Const(d, 1.5)));
-    const auto flat = hn::Eq(hn::Add(hn::Abs(vx), hn::Abs(vy)), hn::Zero(d));
-    lambda = unused = StudentLambda<A>(d, factor, power, z, flat);
-  }
-};
 
 }  // namespace
 }  // namespace HWY_NAMESPACE

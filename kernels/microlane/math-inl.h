@@ -300,6 +300,15 @@ HWY_INLINE Vec<D> Exp(D d, Vec<D> x, Vec<D> tail) {
   return ExpTimes<A>(d, x, tail, Const(d, 1));
 }
 
+// e^x - 1 for |x| <= 0.1.
+template <class D>
+HWY_INLINE Vec<D> ExpMinusOneSeries(D d, Vec<D> x) {
+  return hn::MulAdd(
+      hn::Mul(x, x),
+      Polynomial(d, x, {0.5, 1.0 / 6, 1.0 / 24, 1.0 / 120, 1.0 / 720, 1.0 / 5040, 1.0 / 40320, 1.0 / 362880}),
+      x);
+}
+
 // (2 atanh(s) - 2 s)/s^3 of y = s^2, |s| <= 3 - 2 sqrt 2.
 template <Accuracy A, class D>
 HWY_INLINE Vec<D> TwoAtanhPolynomial(D d, Vec<D> y) {

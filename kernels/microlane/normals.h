@@ -157,30 +157,34 @@ class NormalCalls : Lanes... {
   using Lanes::SampleVisibleReflectionBounded...;
 };
 
-template <Normals kNormals, class T>
-using IsotropicLanes = NormalLanes<kNormals, RoughnessKind::kIsotropic, T, Parameter<T>>;
-template <Normals kNormals, class T>
-using AnisotropicLanes = NormalLanes<kNormals, RoughnessKind::kAnisotropic, T, Parameter<T>, Parameter<T>>;
+// Own: the parameters of the distribution's shape.
+template <Normals kNormals, class T, class... Own>
+using IsotropicLanes = NormalLanes<kNormals, RoughnessKind::kIsotropic, T, Own..., Parameter<T>>;
+template <Normals kNormals, class T, class... Own>
+using AnisotropicLanes =
+    NormalLanes<kNormals, RoughnessKind::kAnisotropic, T, Own..., Parameter<T>, Parameter<T>>;
 
-template <Normals kNormals, class T>
+template <Normals kNormals, class T, class... Own>
 using RotatedLanes =
-    NormalLanes<kNormals, RoughnessKind::kRotated, T, Parameter<T>, Parameter<T>, Parameter<T>>;
-template <Normals kNormals, class T>
-using OffCentreLanes = NormalLanes<kNormals, RoughnessKind::kOffCentre, T, Parameter<T>, Parameter<T>,
+    NormalLanes<kNormals, RoughnessKind::kRotated, T, Own..., Parameter<T>, Parameter<T>, Parameter<T>>;
+template <Normals kNormals, class T, class... Own>
+using OffCentreLanes = NormalLanes<kNormals, RoughnessKind::kOffCentre, T, Own..., Parameter<T>, Parameter<T>,
                                    Parameter<T>, Parameter<T>, Parameter<T>>;
 
-// A distribution of slopes of one shape (Heitz 2014 section 5). Its parameters are one of
+// A distribution of slopes of one shape (Heitz 2014 section 5). Its parameters are Own<T>..., those of the
+// shape, and then one of
 //   alpha                                    isotropic, _isotropic
 //   alpha_x, alpha_y                         anisotropic, from 1e-5 to 100
 //   alpha_x, alpha_y, r_xy                   rotated: slopes correlate by r_xy, within 0.9999; Eqs. 88-93
 //   alpha_x, alpha_y, r_xy, mean_x, mean_y   off-centre: mean slopes, within 16; Eqs. 94-97
 // Off-centre, v.z - mean_x v.x - mean_y v.y, the projected area of the mesosurface, stands for v.z, and its
 // sign for the side of the surface.
-template <Normals kNormals>
-using ShapeInvariantCalls = NormalCalls<IsotropicLanes<kNormals, float>, IsotropicLanes<kNormals, double>,
-                                        AnisotropicLanes<kNormals, float>, AnisotropicLanes<kNormals, double>,
-                                        RotatedLanes<kNormals, float>, RotatedLanes<kNormals, double>,
-                                        OffCentreLanes<kNormals, float>, OffCentreLanes<kNormals, double>>;
+template <Normals kNormals, template <class> class... Own>
+using ShapeInvariantCalls = NormalCalls<
+    IsotropicLanes<kNormals, float, Own<float>...>, IsotropicLanes<kNormals, double, Own<double>...>,
+    AnisotropicLanes<kNormals, float, Own<float>...>, AnisotropicLanes<kNormals, double, Own<double>...>,
+    RotatedLanes<kNormals, float, Own<float>...>, RotatedLanes<kNormals, double, Own<double>...>,
+    OffCentreLanes<kNormals, float, Own<float>...>, OffCentreLanes<kNormals, double, Own<double>...>>;
 
 }  // namespace microlane
 

@@ -77,8 +77,8 @@ class QuadratureRule;  // quadrature.h
 // has are set and read: clearing the others would cost more than a short batch.
 template <class T>
 struct Call {
-  const T* in[11];
-  bool uniform[11] = {};  // in[k] is one value; only for inputs behind the list's '|'
+  const T* in[12];
+  bool uniform[12] = {};  // in[k] is one value; only for inputs behind the list's '|'
   T* out[6];              // an output may be the same array as an input; other overlap is not allowed
   Transport transport = Transport::kRadiance;
   const QuadratureRule* rule = nullptr;  // of kernels with an order

@@ -15,7 +15,9 @@ namespace HWY_NAMESPACE {
 namespace {
 
 struct Phong {
-  static constexpr bool kHasExponent = true, kMaskingInDouble = true, kDensityOfCosine = true;
+  static constexpr size_t kOwn = 0;
+  static constexpr bool kHasExponent = true, kMaskingInDouble = true, kDensityOfCosine = true,
+                        kLogDensityInDouble = true;
 
   // pi D = Norm cos^exponent.
   template <class D>
@@ -30,14 +32,6 @@ struct Phong {
     const Vec<D> z2 = hn::Max(hn::Mul(hz, hz), Const(d, kIsFloat<D> ? 0x1p-100 : 0x1p-900));
     const Vec<D> log = LogOnePlusRatio(d, r2, z2);
     return hn::Max(hn::Mul(hn::Mul(exponent, Const(d, -0.5)), log), Const(d, -2000));
-  }
-
-  // In double lanes.
-  template <Care, class D>
-  static HWY_INLINE void CarefulLogDensity(D d, Vec<D>& high, Vec<D>& low, Vec<D>, Vec<D>, Vec<D> hx,
-                                           Vec<D> hy, Vec<D> hz, Vec<D> hx_tail, Vec<D> hy_tail,
-                                           Vec<D> hz_tail, Vec<D> exponent) {
-    InDouble2<LogDensityOp<Phong>>(d, high, low, hx, hy, hz, hx_tail, hy_tail, hz_tail, exponent);
   }
 
   // 2/alpha^2 - 2 = 2 (1 - alpha)(1 + alpha)/alpha^2 (Walter 2007, after Eq. 30); 0 for alpha >= 1.
@@ -75,13 +69,8 @@ struct Phong {
     const Vec<D> cos_m = Exp<A>(d, high, low);
     // sin^2 = -expm1(2 log cos): by its series near the normal.
     const Vec<D> x = hn::Add(hn::Add(high, high), hn::Add(low, low));
-    const Vec<D> series = hn::MulAdd(
-        hn::Mul(x, x),
-        Polynomial(d, x,
-                   {0.5, 1.0 / 6, 1.0 / 24, 1.0 / 120, 1.0 / 720, 1.0 / 5040, 1.0 / 40320, 1.0 / 362880}),
-        x);
-    const Vec<D> sin2 =
-        hn::IfThenElse(hn::Gt(x, Const(d, -0.1)), hn::Neg(series), hn::NegMulAdd(cos_m, cos_m, one));
+    const Vec<D> sin2 = hn::IfThenElse(hn::Gt(x, Const(d, -0.1)), hn::Neg(ExpMinusOneSeries(d, x)),
+                                       hn::NegMulAdd(cos_m, cos_m, one));
     Vec<D> sin_phi, cos_phi;
     SinCos2Pi<A>(d, u2, sin_phi, cos_phi);
     const auto none = hn::Le(u1, zero);
@@ -116,37 +105,16 @@ struct Phong {
 // Phong with Smith's masking of its own: P22 = (exponent + 2)/(2 pi) (1 + x^2 + y^2)^-(exponent/2 + 2) is
 // Student's t of n = (exponent + 1)/2.
 template <bool kFloatResult>
-struct PhongSmith : Phong {
-  // |vz| Lambda(v) = factor exp(-power), next to 0 along the normal.
-  template <Accuracy A, class D>
-  static HWY_INLINE void LambdaFactors(D d, Vec<D>& factor, Vec<D>& power, Vec<D> vx, Vec<D> vy, Vec<D> z,
-                                       Vec<D> exponent) {
-    // Float lanes keep vx^2 from underflow where Lambda has not; nothing else depends on the scale.
-    const Vec<D> scale = Const(d, kIsFloat<D> ? 0x1p30 : 1);
-    const Vec<D> x = hn::Mul(vx, scale), y = hn::Mul(vy, scale);
-    const Vec<D> s2 = hn::Max(hn::MulAdd(x, x, hn::Mul(y, y)), Const(d, kIsFloat<D> ? 0x1p-120 : 0x1p-1000));
-    StudentLambdaFactors<StudentFit<A, kFloatResult>, A>(d, factor, power, s2, hn::Mul(z, scale),
-                                                         hn::MulAdd(exponent, Const(d, 0.5), Const(d, 0.5)));
-    factor = hn::Mul(factor, Const(d, kIsFloat<D> ? 0x1p-30 : 1));
+struct PhongSmith : Phong, StudentSmith<PhongSmith<kFloatResult>, kFloatResult> {
+  using StudentSmith<PhongSmith, kFloatResult>::Masking;
+
+  template <class D>
+  static HWY_INLINE Vec<D> Tangent2(D, Vec<D> x, Vec<D> y, Vec<D>) {
+    return hn::MulAdd(x, x, hn::Mul(y, y));
   }
-
-  struct LambdaOp {
-    template <Accuracy A, class D>
-    static HWY_INLINE void Run(D d, Vec<D>& lambda, Vec<D>& unused, Vec<D> vx, Vec<D> vy, Vec<D> vz,
-                               Vec<D> exponent) {
-      Vec<D> factor, power;
-      const Vec<D> z = hn::Abs(vz);
-      LambdaFactors<A>(d, factor, power, vx, vy, z, exponent);
-      const auto flat = hn::Eq(hn::Add(hn::Abs(vx), hn::Abs(vy)), hn::Zero(d));
-      lambda = unused = StudentLambda<A>(d, factor, power, z, flat);
-    }
-  };
-
-  template <Care, Accuracy A, class D>
-  static HWY_INLINE Vec<D> Masking(D d, Vec<D> vx, Vec<D> vy, Vec<D> z, Vec<D> exponent) {
-    Vec<D> factor, power;
-    LambdaFactors<A>(d, factor, power, vx, vy, z, exponent);
-    return hn::Add(z, ExpTimes<A>(d, hn::Neg(power), hn::Zero(d), hn::Add(factor, factor)));
+  template <class D>
+  static HWY_INLINE Vec<D> Order(D d, Vec<D> exponent) {
+    return hn::MulAdd(exponent, Const(d, 0.5), Const(d, 0.5));
   }
 };
 

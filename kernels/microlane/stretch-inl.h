@@ -104,9 +104,39 @@ HWY_INLINE Vec<D> ProjectedRoughness2(D d, Vec<D> x, Vec<D> y, Vec<D> alpha) {
   return ProjectedRoughness2<kCare>(d, x, y, alpha, alpha);
 }
 
+// Parameters come as those of a distribution's own shape, Dist::kOwn of them, then those of its roughness.
+//
+// f of all but the first kCount, and of those: of the roughness alone, and of the shape's own.
+template <size_t kCount, class F, class First, class... Rest>
+HWY_INLINE auto WithoutFirst(const F& f, First first, Rest... rest) {
+  if constexpr (kCount == 0) {
+    return f(first, rest...);
+  } else {
+    return WithoutFirst<kCount - 1>(f, rest...);
+  }
+}
+template <size_t kCount, class F, class First, class... Rest>
+HWY_INLINE auto WithFirst(const F& f, First first, Rest... rest) {
+  if constexpr (kCount == 0) {
+    return f();
+  } else {
+    return WithFirst<kCount - 1>([&](auto... more) HWY_ATTR { return f(first, more...); }, rest...);
+  }
+}
+template <class Dist, class F, class... P>
+HWY_INLINE auto OfRoughness(const F& f, P... p) {
+  return WithoutFirst<Dist::kOwn>(f, p...);
+}
+template <class Dist, class F, class... P>
+HWY_INLINE auto OfShape(const F& f, P... p) {
+  return WithFirst<Dist::kOwn>(f, p...);
+}
+
 // Kinds of roughness that shear: sums of products cancel, so they are formed in double lanes.
-template <class... P>
-inline constexpr bool kShears = sizeof...(P) > 2;
+template <class Dist, class... P>
+inline constexpr bool kShears = sizeof...(P) - Dist::kOwn > 2;
+template <class Dist, class... P>
+inline constexpr bool kHasMean = sizeof...(P) - Dist::kOwn > 3;
 
 // sqrt(1 - r^2): 1 - r is exact near 1.
 template <class D>
@@ -136,32 +166,6 @@ HWY_INLINE void UnitSlopes(D d, Vec<D>& x, Vec<D>& y, Vec<D>& area, Vec<D> hx, V
                            Vec<D> alpha_x, Vec<D> alpha_y, Vec<D> r_xy, Vec<D> mean_x, Vec<D> mean_y) {
   UnitSlopes(d, x, y, area, hn::MulAdd(mean_x, hz, hx), hn::MulAdd(mean_y, hz, hy), alpha_x, alpha_y, r_xy);
 }
-
-// 1/(area e^2) with e = x^2 + y^2 + Hz^2 of UnitSlopes, or Hz^2 alone: what multiplies exp(-tan^2) then,
-// which is 0 long before Hz^2 gets to its limit.
-template <bool kWithSlopes>
-struct ShearedDensityOp {
-  template <class DD, class... P>
-  static HWY_INLINE void Run(DD dd, Vec<DD>& density, Vec<DD>& unused, Vec<DD> hx, Vec<DD> hy, Vec<DD> hz,
-                             P... p) {
-    Vec<DD> x, y, area;
-    UnitSlopes(dd, x, y, area, hx, hy, hz, p...);
-    Vec<DD> e = hn::Max(hn::Mul(hz, hz), Const(dd, 0x1p-36));  // NOLINT(misc-const-correctness)
-    if constexpr (kWithSlopes) e = hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(hz, hz)));
-    density = unused = hn::Div(Const(dd, 1), hn::Mul(area, hn::Mul(e, e)));
-  }
-};
-
-// -(x^2 + y^2)/Hz^2 = high + low, Heitz 2014 Eqs. 92, 95.
-struct ShearedLogDensityOp {
-  template <class DD, class... P>
-  static HWY_INLINE void Run(DD dd, Vec<DD>& high, Vec<DD>& low, Vec<DD> hx, Vec<DD> hy, Vec<DD> hz, P... p) {
-    Vec<DD> x, y, area;
-    UnitSlopes(dd, x, y, area, hx, hy, hz, p...);
-    const Vec<DD> z2 = hn::Max(hn::Mul(hz, hz), Const(dd, 0x1p-60));
-    SplitHigh(dd, hn::Neg(hn::Div(hn::MulAdd(x, x, hn::Mul(y, y)), z2)), high, low);
-  }
-};
 
 // alpha_o^2 sin^2 of Heitz 2014 Eqs. 93, 97, as a sum of squares.
 struct ShearedRoughness2Op {

@@ -10,7 +10,7 @@
 #include <limits>
 #include <type_traits>
 
-#include "microlane/math-inl.h"
+#include "microlane/distribution-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace microlane {
@@ -243,6 +243,41 @@ HWY_INLINE Vec<D> StudentLambda(D d, Vec<D> factor, Vec<D> power, Vec<D> z, hn::
   const Vec<D> over_z = hn::Min(hn::Div(factor, z), hn::Set(d, std::numeric_limits<T<D>>::max()));
   return ZeroIf(flat, ExpTimes<A>(d, hn::Neg(power), hn::Zero(d), over_z));
 }
+
+// Smith's masking of a policy `Dist` that gives s^2 of mu = |v.n|/s, Tangent2, and n, Order.
+template <class Dist, bool kFloatResult>
+struct StudentSmith {
+  // |v.n| Lambda(v) = factor exp(-power), next to 0 along the normal.
+  template <Accuracy A, class D, class... P>
+  static HWY_INLINE void LambdaFactors(D d, Vec<D>& factor, Vec<D>& power, Vec<D> vx, Vec<D> vy, Vec<D> z,
+                                       P... p) {
+    // Float lanes keep s^2 from underflow where Lambda has not; nothing else depends on the scale.
+    const Vec<D> scale = Const(d, kIsFloat<D> ? 0x1p30 : 1);
+    const Vec<D> s2 = hn::Max(Dist::Tangent2(d, hn::Mul(vx, scale), hn::Mul(vy, scale), p...),
+                              Const(d, kIsFloat<D> ? 0x1p-120 : 0x1p-1000));
+    StudentLambdaFactors<StudentFit<A, kFloatResult>, A>(d, factor, power, s2, hn::Mul(z, scale),
+                                                         Dist::Order(d, p...));
+    factor = hn::Mul(factor, Const(d, kIsFloat<D> ? 0x1p-30 : 1));
+  }
+
+  struct LambdaOp {
+    template <Accuracy A, class D, class... P>
+    static HWY_INLINE void Run(D d, Vec<D>& lambda, Vec<D>& unused, Vec<D> vx, Vec<D> vy, Vec<D> vz, P... p) {
+      Vec<D> factor, power;
+      const Vec<D> z = hn::Abs(CosineOf<Dist>(d, vx, vy, vz, p...));
+      LambdaFactors<A>(d, factor, power, vx, vy, z, p...);
+      const auto flat = hn::Eq(hn::Add(hn::Abs(vx), hn::Abs(vy)), hn::Zero(d));
+      lambda = unused = StudentLambda<A>(d, factor, power, z, flat);
+    }
+  };
+
+  template <Care, Accuracy A, class D, class... P>
+  static HWY_INLINE Vec<D> Masking(D d, Vec<D> vx, Vec<D> vy, Vec<D> z, P... p) {
+    Vec<D> factor, power;
+    LambdaFactors<A>(d, factor, power, vx, vy, z, p...);
+    return hn::Add(z, ExpTimes<A>(d, hn::Neg(power), hn::Zero(d), hn::Add(factor, factor)));
+  }
+};
 
 }  // namespace
 }  // namespace HWY_NAMESPACE

@@ -75,6 +75,8 @@ const FamilyFunction* NormalsTable<Normals::kBeckmann>();
 template <>
 const FamilyFunction* NormalsTable<Normals::kPhong>();
 template <>
+const FamilyFunction* NormalsTable<Normals::kStudentT>();
+template <>
 const FamilyFunction* RoughDielectricTable<Normals::kGgx>();
 template <>
 const FamilyFunction* RoughDielectricTable<Normals::kBeckmann>();

@@ -25,36 +25,43 @@ struct NormalQuantityKernel {
   template <Accuracy A, class D, class... V>
   static HWY_INLINE void Eval(D d, const Options<D>& options, const Outputs<D>& out, Vec<D> a, Vec<D> b,
                               V... in) {
+    EvalOf<ForResult<Dist, kIsFloat<D>>, A>(d, options, out, a, b, in...);
+  }
+
+ private:
+  template <class Policy, Accuracy A, class D, class... V>
+  static HWY_INLINE void EvalOf(D d, const Options<D>& options, const Outputs<D>& out, Vec<D> a, Vec<D> b,
+                                V... in) {
     (void)options;
     if constexpr (kWhat == NormalQuantity::kD) {
-      out.v0 = NormalDensity<Dist, A>(d, a, b, in...);
+      out.v0 = NormalDensity<Policy, A>(d, a, b, in...);
     } else if constexpr (kWhat == NormalQuantity::kLambda) {
-      out.v0 = Lambda<Dist, A>(d, a, b, in...);
+      out.v0 = Lambda<Policy, A>(d, a, b, in...);
     } else if constexpr (kWhat == NormalQuantity::kG1) {
-      out.v0 = G1<Dist, A>(d, a, b, in...);
+      out.v0 = G1<Policy, A>(d, a, b, in...);
     } else if constexpr (kWhat == NormalQuantity::kDVisible) {
-      out.v0 = VisibleNormalDensity<Dist, A>(d, a, b, in...);
+      out.v0 = VisibleNormalDensity<Policy, A>(d, a, b, in...);
     } else if constexpr (kWhat == NormalQuantity::kDVisibleVCavity) {
-      out.v0 = VCavityNormalDensity<Dist, A>(d, a, b, in...);
+      out.v0 = VCavityNormalDensity<Policy, A>(d, a, b, in...);
     } else if constexpr (kWhat == NormalQuantity::kSampleVCavity) {
-      SampleVCavityNormal<Dist, Care::kCareful, A>(d, out.v0, out.v1, out.v2, out.v3, a, b, in...);
+      SampleVCavityNormal<Policy, Care::kCareful, A>(d, out.v0, out.v1, out.v2, out.v3, a, b, in...);
     } else if constexpr (kWhat == NormalQuantity::kSampleNormal) {
-      SampleNormal<Dist, A>(d, out.v0, out.v1, out.v2, out.v3, a, b, in...);
+      SampleNormal<Policy, A>(d, out.v0, out.v1, out.v2, out.v3, a, b, in...);
     } else if constexpr (kWhat == NormalQuantity::kSampleReflection ||
                          kWhat == NormalQuantity::kSampleReflectionBounded) {
       constexpr bool bounded = kWhat == NormalQuantity::kSampleReflectionBounded;
       Vec<D> cos2;
-      Dist::template SampleVisibleReflection<bounded, JointMasking::kHeightCorrelated, A>(
+      Policy::template SampleVisibleReflection<bounded, JointMasking::kHeightCorrelated, A>(
           d, out.v0, out.v1, out.v2, out.v3, out.v4, out.v5, cos2, a, b, in...);
     } else if constexpr (kWhat == NormalQuantity::kPdfReflection ||
                          kWhat == NormalQuantity::kPdfReflectionBounded) {
       constexpr Drawn drawn =
           kWhat == NormalQuantity::kPdfReflection ? Drawn::kVisible : Drawn::kBoundedVisible;
-      RoughSurface<Dist, MirrorFacets, Lobes::kReflection, JointMasking::kHeightCorrelated, false, true,
+      RoughSurface<Policy, MirrorFacets, Lobes::kReflection, JointMasking::kHeightCorrelated, false, true,
                    drawn, A>(d, options.radiance, out.v0, out.v0, a, b, in...);
     } else {
       constexpr bool bounded = kWhat == NormalQuantity::kSampleVisibleBounded;
-      SampleVisibleNormal<Dist, bounded, A>(d, out.v0, out.v1, out.v2, out.v3, a, b, in...);
+      SampleVisibleNormal<Policy, bounded, A>(d, out.v0, out.v1, out.v2, out.v3, a, b, in...);
     }
   }
 };

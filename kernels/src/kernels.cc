@@ -38,11 +38,21 @@ const FamilyFunction* TableOf(std::size_t kernel) {
   }
   if (kernel >= kFirstReflectorKernel) {
     return OfNormals(static_cast<std::size_t>(PlaceOfReflectorKernel(kernel).normals), families,
-                     [](auto normals) { return RoughReflectorTable<decltype(normals)::value>(); });
+                     [](auto normals) -> const FamilyFunction* {
+                       constexpr Normals kNormals = decltype(normals)::value;
+                       if constexpr (NumReflectorKernels(kNormals) > 0)
+                         return RoughReflectorTable<kNormals>();
+                       return nullptr;
+                     });
   }
   if (kernel >= kFirstDielectricKernel) {
     return OfNormals(static_cast<std::size_t>(PlaceOfDielectricKernel(kernel).normals), families,
-                     [](auto normals) { return RoughDielectricTable<decltype(normals)::value>(); });
+                     [](auto normals) -> const FamilyFunction* {
+                       constexpr Normals kNormals = decltype(normals)::value;
+                       if constexpr (NumDielectricQuantities(kNormals) > 0)
+                         return RoughDielectricTable<kNormals>();
+                       return nullptr;
+                     });
   }
   if (kernel >= kNumComponentKernels) {
     const NormalRow& row = kNormalRows[kNormalKernelPlaces[kernel - kNumComponentKernels].row];

@@ -4,6 +4,7 @@
 #define HWY_TARGET_INCLUDE "src/masking.cc"
 #include "hwy/foreach_target.h"  // must stand before highway.h
 #include "microlane/masking-inl.h"
+#include "microlane/student_t-inl.h"
 #include "src/batch-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -66,10 +67,10 @@ struct TransmissionKernel {
 
 struct StudentLambdaKernel {
   static constexpr std::string_view kId = "masking.student_lambda";
-  template <Accuracy, class D, class... V>
-  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, V... in) {
-    Vec<D> unused;
-    Precisely<StudentLambdaOp<kIsFloat<D>>, Accuracy::kStandard>(d, out.v0, unused, in...);
+  template <Accuracy A, class D>
+  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, Vec<D> vx, Vec<D> vy, Vec<D> vz,
+                              Vec<D> alpha_x, Vec<D> alpha_y, Vec<D> gamma) {
+    out.v0 = StudentT<kIsFloat<D>>::template Lambda<A>(d, vx, vy, vz, gamma, alpha_x, alpha_y);
   }
 };
 

@@ -18,6 +18,7 @@
 #include "oracle/rough_reflector.h"
 #include "oracle/roughness.h"
 #include "oracle/student.h"
+#include "oracle/student_t.h"
 
 namespace microlane::oracle {
 namespace {
@@ -45,20 +46,27 @@ void Store(const Vec& v, Real* out) {
   out[2] = v.z;
 }
 
+template <RoughnessKind kRoughness>
+Roughness MakeRoughness(const Real* in) {
+  constexpr bool shears = kRoughness == RoughnessKind::kRotated || kRoughness == RoughnessKind::kOffCentre;
+  Roughness roughness{in[0], in[kRoughness == RoughnessKind::kIsotropic ? 0 : 1]};
+  if constexpr (shears) roughness.r_xy = in[2];
+  if constexpr (kRoughness == RoughnessKind::kOffCentre) {
+    roughness.mean_x = in[3];
+    roughness.mean_y = in[4];
+  }
+  return roughness;
+}
+
 // A distribution from its parameters, as they follow the other inputs.
 template <Normals kNormals, RoughnessKind kRoughness>
 auto MakeNormals(const Real* in) {
-  constexpr bool shears = kRoughness == RoughnessKind::kRotated || kRoughness == RoughnessKind::kOffCentre;
   if constexpr (kNormals == Normals::kPhong) {
     return Phong{in[0]};
+  } else if constexpr (kNormals == Normals::kStudentT) {
+    return StudentT{in[0], MakeRoughness<kRoughness>(in + 1)};
   } else {
-    Roughness roughness{in[0], in[kRoughness == RoughnessKind::kIsotropic ? 0 : 1]};
-    if constexpr (shears) roughness.r_xy = in[2];
-    if constexpr (kRoughness == RoughnessKind::kOffCentre) {
-      roughness.mean_x = in[3];
-      roughness.mean_y = in[4];
-    }
-    return std::conditional_t<kNormals == Normals::kGgx, Ggx, Beckmann>{roughness};
+    return std::conditional_t<kNormals == Normals::kGgx, Ggx, Beckmann>{MakeRoughness<kRoughness>(in)};
   }
 }
 
@@ -239,7 +247,7 @@ void Dielectric(Call& call) {
   constexpr bool one_lobe_sampled = row.what == DielectricQuantity::kSample && !row.HasBothLobes();
   const Real* const parameters = call.in + (one_lobe_sampled ? 5 : 6);
   constexpr RoughnessKind roughness = ModelRoughness(kNormals);
-  constexpr std::size_t eta = Split(kRoughnesses[static_cast<std::size_t>(roughness)].parameters).count;
+  constexpr std::size_t eta = Split(kModelFamilies[static_cast<std::size_t>(kNormals)].parameters).count;
   const auto normals = MakeNormals<kNormals, roughness>(parameters);
   const RoughDielectric<std::remove_const_t<decltype(normals)>> bsdf{normals, parameters[eta], MaskingOf(row),
                                                                      call.transport};
@@ -274,7 +282,8 @@ void OfReflector(Call& call) {
   constexpr ReflectorKernelPlace place = PlaceOfReflectorKernel(kKernel);
   constexpr DielectricQuantity row = kReflectorQuantities[place.quantity];
   constexpr RoughnessKind roughness = ModelRoughness(place.normals);
-  constexpr std::size_t count = Split(kRoughnesses[static_cast<std::size_t>(roughness)].parameters).count;
+  constexpr std::size_t count =
+      Split(kModelFamilies[static_cast<std::size_t>(place.normals)].parameters).count;
   const Real* const parameters = call.in + Split(kKernels[kKernel].inputs).per_lane;
   const auto normals = MakeNormals<place.normals, roughness>(parameters);
   const auto facets = MakeFacets<place.reflector>(parameters + count);
@@ -448,7 +457,7 @@ constexpr Entry kEntries[] = {
      [](Call& call) { call.out[0] = HeightCorrelatedTransmissionG2(call.in[0], call.in[1]); }},
     {"masking.student_lambda",
      [](Call& call) {
-       const StudentT student{{call.in[3], call.in[4]}, call.in[5]};
+       const StudentT student{call.in[5], {call.in[3], call.in[4]}};
        call.out[0] = student.Lambda(Direction(call.in));
      }},
     {"masking.direction_correlated",

@@ -4,7 +4,6 @@
 
 #include "oracle/masking.h"
 #include "oracle/phong.h"
-#include "oracle/stretch.h"
 
 namespace microlane::oracle {
 
@@ -48,14 +47,10 @@ inline Real StudentLambda(const Real& s2, const Real& vz, const Real& n) {
   return StudentDefect(mu, n) / (2 * SqrtPi() * GammaRatio(n) * mu * pow(1 + mu * mu, n));
 }
 
-struct StudentT {
-  Roughness alpha;
-  Real gamma;
-
-  Real Lambda(const Vec& v) const {
-    return StudentLambda((gamma - 1) * ProjectedRoughness2(v, alpha), v.z, gamma - Real(3) / 2);
-  }
-};
+// (1 + Lambda) |v.n| at v.n = 0.
+inline Real StudentGrazingArea(const Real& s2, const Real& n) {
+  return sqrt(s2) / (2 * SqrtPi() * GammaRatio(n));
+}
 
 // Phong with Smith's masking of its own.
 struct PhongSmith : Phong {

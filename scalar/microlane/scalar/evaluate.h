@@ -25,6 +25,7 @@
 #include "microlane/scalar/roughness.h"
 #include "microlane/scalar/sheared.h"
 #include "microlane/scalar/student.h"
+#include "microlane/scalar/student_t.h"
 
 namespace microlane::scalar {
 
@@ -50,16 +51,17 @@ void Store(const SampledNormal<double>& normal, Real* out) {
   out[3] = Saturate<Real>(normal.pdf);
 }
 
-template <RoughnessKind kRoughness, template <class> class Distribution, class Real>
-auto MakeRough(const Real* in) {
+template <RoughnessKind kRoughness, template <class> class Distribution, class Real, class... Own>
+auto MakeRough(const Real* in, Own... own) {
+  using Rough = Sheared<Distribution, Real, sizeof...(own)>;
   if constexpr (kRoughness == RoughnessKind::kIsotropic) {
-    return Distribution<Real>{in[0], in[0]};
+    return Distribution<Real>{own..., in[0], in[0]};
   } else if constexpr (kRoughness == RoughnessKind::kAnisotropic) {
-    return Distribution<Real>{in[0], in[1]};
+    return Distribution<Real>{own..., in[0], in[1]};
   } else if constexpr (kRoughness == RoughnessKind::kRotated) {
-    return Sheared<Distribution, Real>{in[0], in[1], in[2]};
+    return Rough{{own...}, in[0], in[1], in[2]};
   } else {
-    return Sheared<Distribution, Real>{in[0], in[1], in[2], in[3], in[4]};
+    return Rough{{own...}, in[0], in[1], in[2], in[3], in[4]};
   }
 }
 
@@ -69,6 +71,7 @@ auto MakeNormals(const Real* in) {
   if constexpr (kNormals == Normals::kPhong) return Phong<Real>{in[0]};
   if constexpr (kNormals == Normals::kBeckmann) return MakeRough<kRoughness, Beckmann>(in);
   if constexpr (kNormals == Normals::kGgx) return MakeRough<kRoughness, Ggx>(in);
+  if constexpr (kNormals == Normals::kStudentT) return MakeRough<kRoughness, StudentT>(in + 1, in[0]);
 }
 
 // The roughness that the models take.
@@ -146,7 +149,7 @@ struct Dielectric {
     constexpr bool one_lobe_sampled = kRow.what == DielectricQuantity::kSample && !kRow.HasBothLobes();
     const Real* const parameters = in + (one_lobe_sampled ? 5 : 6);
     constexpr RoughnessKind roughness = ModelRoughness(kNormals);
-    constexpr std::size_t eta = Split(kRoughnesses[static_cast<std::size_t>(roughness)].parameters).count;
+    constexpr std::size_t eta = Split(kModelFamilies[static_cast<std::size_t>(kNormals)].parameters).count;
     const auto dielectric =
         MakeDielectric<masking>(MakeNormals<kNormals, roughness>(parameters), parameters[eta], transport);
     if constexpr (kRow.what == DielectricQuantity::kEval) {
@@ -191,7 +194,8 @@ void RunReflector(const Real* in, Real* out, Transport) {
   constexpr Masking masking = MaskingOf(row);
   constexpr bool v_cavity = masking == Masking::kVCavity;
   constexpr RoughnessKind roughness = ModelRoughness(place.normals);
-  constexpr std::size_t count = Split(kRoughnesses[static_cast<std::size_t>(roughness)].parameters).count;
+  constexpr std::size_t count =
+      Split(kModelFamilies[static_cast<std::size_t>(place.normals)].parameters).count;
   const Real* const parameters = in + Split(kKernels[kKernel].inputs).per_lane;
   const auto surface = MakeReflector<masking>(MakeNormals<place.normals, roughness>(parameters),
                                               MakeFacets<place.reflector>(parameters + count));
@@ -422,7 +426,7 @@ constexpr auto Entries() {
                   }},
       Entry<Real>{"masking.student_lambda",
                   [](const Real* in, Real* out, Transport) {
-                    out[0] = Lambda(StudentT<Real>{in[3], in[4], in[5]}, Load(in));
+                    out[0] = Lambda(StudentT<Real>{in[5], in[3], in[4]}, Load(in));
                   }},
       Entry<Real>{"masking.direction_correlated",
                   [](const Real* in, Real* out, Transport) {

@@ -2,7 +2,10 @@
 #ifndef MICROLANE_SCALAR_SHEARED_H_
 #define MICROLANE_SCALAR_SHEARED_H_
 
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <utility>
 
 #include "microlane/scalar/direction.h"
 
@@ -10,10 +13,17 @@ namespace microlane::scalar {
 
 // A distribution of unit roughness whose slopes are stretched by alpha_x and alpha_y, correlated by r_xy and
 // moved by the mean slope. Normals go to those of unit roughness by a linear map, directions by its inverse
-// transpose; sums that cancel are Wide.
-template <template <class> class Distribution, class Real>
+// transpose; sums that cancel are Wide. own: the parameters of the distribution's shape.
+template <template <class> class Distribution, class Real, std::size_t kOwn = 0>
 struct Sheared {
+  std::array<Real, kOwn> own;
   Real alpha_x, alpha_y, r_xy, mean_x = 0, mean_y = 0;
+
+  // The distribution of unit roughness.
+  template <class T>
+  Distribution<T> Unit() const {
+    return Unit<T>(std::make_index_sequence<kOwn>());
+  }
 
   // The projected area of the mesosurface's normal, which stands for v.n.
   double Cosine(const Vec3<Real>& v) const {
@@ -25,27 +35,32 @@ struct Sheared {
 
   // factor D(m). Heitz 2014 Eqs. 92, 95 as a sum of squares: x, then y without what correlates with x.
   double DTimes(const Vec3<Real>& m, double factor) const {
-    if (AnyNan(m, alpha_x, alpha_y, r_xy, mean_x, mean_y)) return kNan<double>;
+    if (AnyNan(m, *this)) return kNan<double>;
     const W z = m.z;
     const W x = (W(m.x) + W(mean_x) * z) / W(alpha_x);
     const W y = ((W(m.y) + W(mean_y) * z) / W(alpha_y) - W(r_xy) * x) / Uncorrelated();
-    return Distribution<Real>{1, 1}.DOfGiven({x, y, z}, factor / Area());
+    return Unit<Real>().DOfGiven({x, y, z}, factor / Area());
   }
 
   // scale |v.n| Lambda(v), of the view of the surface of unit roughness.
   double ScaledLambda(const Vec3<Real>& v, double scale) const {
-    return Distribution<double>{1, 1}.ScaledLambda(View(v), scale);
+    return Unit<double>().ScaledLambda(View(v), scale);
   }
 
   SampledNormal<double> SampleNormal(double u1, double u2) const {
-    return FromUnit(Distribution<double>{1, 1}.SampleNormal(u1, u2));
+    return FromUnit(Unit<double>().SampleNormal(u1, u2));
   }
   SampledNormal<double> SampleVisibleNormal(const Vec3<Real>& v, double u1, double u2, bool) const {
-    return FromUnit(Distribution<double>{1, 1}.SampleVisibleNormal(View(v), u1, u2));
+    return FromUnit(Unit<double>().SampleVisibleNormal(View(v), u1, u2));
   }
 
  private:
   using W = Wide<Real>;
+
+  template <class T, std::size_t... kPlace>
+  Distribution<T> Unit(std::index_sequence<kPlace...>) const {
+    return {static_cast<T>(own[kPlace])..., 1, 1};
+  }
 
   // sqrt(1 - r^2).
   W Uncorrelated() const { return Sqrt((W(1) - W(r_xy)) * (W(1) + W(r_xy))); }
@@ -58,7 +73,7 @@ struct Sheared {
 
   // Solid angles grow by |m|^3 / (alpha_x alpha_y sqrt(1 - r^2)) of the m that comes out, not normalised.
   SampledNormal<double> FromUnit(const SampledNormal<double>& unit) const {
-    if (AnyNan(unit.m, unit.pdf, alpha_x, alpha_y, r_xy, mean_x, mean_y)) {
+    if (AnyNan(unit.m, unit.pdf, *this)) {
       return {{kNan<double>, kNan<double>, kNan<double>}, kNan<double>};
     }
     const double y = r_xy * unit.m.x + Narrow<double>(Uncorrelated()) * unit.m.y;
@@ -69,13 +84,13 @@ struct Sheared {
   }
 };
 
-template <template <class> class Distribution, class Real>
-bool IsNan(const Sheared<Distribution, Real>& d) {
-  return AnyNan(d.alpha_x, d.alpha_y, d.r_xy, d.mean_x, d.mean_y);
+template <template <class> class Distribution, class Real, std::size_t kOwn>
+bool IsNan(const Sheared<Distribution, Real, kOwn>& d) {
+  return AnyNan(d.template Unit<Real>(), d.alpha_x, d.alpha_y, d.r_xy, d.mean_x, d.mean_y);
 }
 
-template <template <class> class Distribution, class Real>
-double Cosine(const Sheared<Distribution, Real>& distribution, const Vec3<Real>& v) {
+template <template <class> class Distribution, class Real, std::size_t kOwn>
+double Cosine(const Sheared<Distribution, Real, kOwn>& distribution, const Vec3<Real>& v) {
   return distribution.Cosine(v);
 }
 

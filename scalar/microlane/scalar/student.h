@@ -55,23 +55,6 @@ double StudentScaledLambda(Wide<Real> s2, Real vz, double n, double scale) {
          Pow(DoubleDouble(1) + DoubleDouble(mu2), -n);
 }
 
-// Slopes of the density 1/(pi alpha_x alpha_y) (1 + (x^2/alpha_x^2 + y^2/alpha_y^2)/(gamma - 1))^-gamma.
-template <class Real>
-struct StudentT {
-  Real alpha_x, alpha_y, gamma;
-
-  double ScaledLambda(const Vec3<Real>& v, double scale) const {
-    using W = Wide<Real>;
-    const W s2 = Square(W(alpha_x) * W(v.x)) + Square(W(alpha_y) * W(v.y));
-    return StudentScaledLambda((W(gamma) - W(1)) * s2, v.z, gamma - 1.5, scale);
-  }
-};
-
-template <class Real>
-bool IsNan(const StudentT<Real>& d) {
-  return AnyNan(d.alpha_x, d.alpha_y, d.gamma);
-}
-
 // Phong with Smith's masking of its own: slopes of the density (exponent + 2)/(2 pi) (1 + x^2 +
 // y^2)^-(exponent/2 + 2).
 template <class Real>
