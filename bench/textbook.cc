@@ -317,8 +317,6 @@ struct BeckmannIsotropic : Beckmann {
 };
 
 struct StudentT {
-  static constexpr Normals kNormals = Normals::kStudentT;
-  static constexpr std::size_t kParameters = 3;
   float gamma, alpha_x, alpha_y;
 
   static StudentT Make(const float* in) { return {in[0], in[1], in[2]}; }

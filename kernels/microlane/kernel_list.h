@@ -443,8 +443,8 @@ inline constexpr NormalRow kNormalRows[] = {
     {Normals::kPhong, NormalQuantity::kSampleVCavity, "sample_visible_normal_v_cavity", "Heitz and d'Eon 2014; Heitz 2014 Eqs. 16, 49", kSampleVCavityNote, {{}, {}, {}, {}, {1, 4, 3000, 8, 64}}},
 
     {Normals::kStudentT, NormalQuantity::kD, "D", "d'Eon 2023; Burley 2012; Heitz 2014 Eqs. 65, 73", kStudentNote, {{1, 4, 2800, 8, 5000}, {1, 4, 2800, 8, 5000}, {1, 4, 200, 8, 0x1p17}, {1, 4, 200, 8, 0x1p17}}},
-    {Normals::kStudentT, NormalQuantity::kLambda, "Lambda", "Heitz 2014 Eqs. 41-43, 73", kStudentLambdaNote, {{1, 1, 1, 1, 6000}, {1, 1, 1, 1, 6000}, {1, 1, 1, 1, 6000}, {1, 1, 1, 1, 6000}}},
-    {Normals::kStudentT, NormalQuantity::kG1, "G1", "Heitz 2014 Eqs. 41-43, 80", kG1Note, {{1, 1, 2600, 1, 24}, {1, 1, 2600, 1, 24}, {1, 1, 2600, 1, 32}, {1, 1, 2600, 1, 32}}},
+    {Normals::kStudentT, NormalQuantity::kLambda, "Lambda", "Heitz 2014 Eqs. 41-43, 73", kStudentLambdaNote, {{1, 1, 1, 1, 6000}, {1, 1, 1, 1, 6000}, {1, 1, 1, 1, 50000}, {1, 1, 1, 1, 50000}}},
+    {Normals::kStudentT, NormalQuantity::kG1, "G1", "Heitz 2014 Eqs. 41-43, 80", kG1Note, {{1, 1, 2600, 1, 24}, {1, 1, 2600, 1, 24}, {1, 1, 2600, 1, 64}, {1, 1, 2600, 1, 64}}},
     {Normals::kStudentT, NormalQuantity::kDVisible, "D_visible", "Heitz 2014 Eq. 16", kDVisibleExponentNote, {{1, 4, 4096, 8, 5000}, {1, 4, 4096, 8, 5000}, {1, 4, 2800, 8, 0x1p17}, {1, 4, 2800, 8, 0x1p17}}},
     {Normals::kStudentT, NormalQuantity::kSampleNormal, "sample_normal", "Walter 2007 Eq. 24; d'Eon 2023; Burley 2012, stretched", kSampleStudentNote, {{1, 4, 2400, 8, 32}, {1, 4, 2400, 8, 32}, {1, 1, 1, 1, 40000}, {1, 1, 1, 1, 40000}}},
     {Normals::kStudentT, NormalQuantity::kDVisibleVCavity, "D_visible_v_cavity", "Heitz 2014 Eqs. 16, 49", kDVisibleVCavityNote, {{1, 4, 4000, 8, 5000}, {1, 4, 4000, 8, 5000}}},
