@@ -58,7 +58,7 @@ class Pairs {
     Call<T> call;
     for (std::size_t k = 0; k < kInputs; ++k) call.in[k] = in_[k].data();
     call.out[0] = out_.data();
-    call.rule = &rule;
+    call.prepared = &rule;
     if constexpr (sizeof(T) == 4) {
       RunKernel(kernel, accuracy, call, size());
     } else {

@@ -1,6 +1,7 @@
 #include "microlane/quadrature.h"
 
 #include <cmath>
+#include <string>
 
 #include "microlane/kernel_list.h"
 #include "microlane/material.h"
@@ -42,7 +43,7 @@ void LegendreNode(std::size_t count, std::size_t k, double& t, double& weight) {
 
 }  // namespace
 
-QuadratureRule::QuadratureRule(double order) : error_(CheckOrder(order)) {
+QuadratureRule::QuadratureRule(double order) : Prepared(CheckOrder(order)) {
   constexpr std::size_t kRows = static_cast<std::size_t>(QuadratureRow::kNumRows);
   if (!ok()) return;
   order_ = static_cast<std::size_t>(order);
