@@ -67,7 +67,7 @@ class Pairs {
     Call<T> call;
     for (std::size_t k = 0; k < inputs_.columns; ++k) call.in[k] = in_[k].data();
     call.out[0] = out_.data();
-    call.rule = &rule;
+    call.prepared = &rule;
     if constexpr (sizeof(T) == 4) {
       RunKernel(kernel_, accuracy, call, size());
     } else {
@@ -129,7 +129,7 @@ void Run(const Request& request) {
   for (const Accuracy accuracy : kAccuracies) fmt::print(" {:>8}", Name(accuracy));
   fmt::print("\n");
   for (std::size_t kernel = kFirstDiffuseKernel; kernel < kNumKernels; ++kernel) {
-    if (!TakesRule(kernel) || kKernels[kernel].id.find("separable") != std::string_view::npos) continue;
+    if (!TakesPrepared(kernel) || kKernels[kernel].id.find("separable") != std::string_view::npos) continue;
     for (const double alpha : request.alphas) PrintKernel(kernel, alpha, request);
   }
 }

@@ -10,9 +10,11 @@
 #include <cmath>
 #include <complex>
 #include <cstddef>
+#include <map>
 #include <type_traits>
 #include <utility>
 
+#include "microlane/albedo.h"
 #include "microlane/kernel_list.h"
 #include "microlane/mean_fresnel_fit.h"
 
@@ -505,6 +507,8 @@ float Masking(const Distribution& distribution, const Vec3& wi, const Vec3& wo, 
   if constexpr (kJoint == DielectricQuantity::kVCavity) {
     const float facing = AbsDot(wi, wm), two_cos = 2 * AbsCosTheta(wm);
     return std::min(1.f, std::min(two_cos * AbsCosTheta(wi) / facing, two_cos * AbsCosTheta(wo) / facing));
+  } else if constexpr (kJoint == DielectricQuantity::kKelemen) {
+    return AbsCosTheta(wm) * AbsCosTheta(wi) * AbsCosTheta(wo) / Sqr(Dot(wi, wm));
   } else if constexpr (kJoint == DielectricQuantity::kSeparable) {
     return 1 / ((1 + distribution.Lambda(wi)) * (1 + distribution.Lambda(wo)));
   } else {
@@ -919,6 +923,141 @@ void MeanFresnel(const float* in, float* out, Transport) {
   }
 }
 
+// Albedos of a material at equal steps of the cosine, the last twice, as renderers keep them.
+class AlbedoSteps {
+ public:
+  AlbedoSteps(float m, float index) {
+    for (int k = 0; k <= kSteps; ++k) {
+      const SpecularLobe lobe = WardLobe(static_cast<double>(m), static_cast<double>(index));
+      albedo_[k] = static_cast<float>(DirectionalAlbedo(lobe, static_cast<double>(k) / kSteps));
+    }
+    albedo_[kSteps + 1] = albedo_[kSteps];
+    // Int (1 - a) mu dmu from the normal on, by midpoints, and cosines at equal steps of it.
+    constexpr int kParts = 16 * kSteps;
+    float sum = 0;
+    for (int k = kParts; k-- > 0;) sum += Deficit((static_cast<float>(k) + 0.5f) / kParts);
+    average_ = 1 - 2 * sum / kParts;
+    float reached = 0;
+    int step = 0;
+    for (int k = kParts; k-- > 0;) {
+      while (step < kSteps && reached >= sum * static_cast<float>(step) / kSteps) {
+        cosine_[step++] = (static_cast<float>(k) + 1) / kParts;
+      }
+      reached += Deficit((static_cast<float>(k) + 0.5f) / kParts);
+    }
+    while (step <= kSteps + 1) cosine_[step++] = 0;
+  }
+  float operator()(float cos_theta) const {
+    const float x = kSteps * std::min(1.f, std::abs(cos_theta));
+    const int k = static_cast<int>(x);
+    const float t = x - static_cast<float>(k);
+    return (1 - t) * albedo_[k] + t * albedo_[k + 1];
+  }
+
+  float average() const { return average_; }
+  float MatteCosine(float u) const {
+    const float x = kSteps * std::min(1.f, u);
+    const int k = static_cast<int>(x);
+    const float t = x - static_cast<float>(k);
+    return (1 - t) * cosine_[k] + t * cosine_[k + 1];
+  }
+
+ private:
+  static constexpr int kSteps = 256;
+  float Deficit(float mu) const { return (1 - (*this)(mu)) * mu; }
+
+  float albedo_[kSteps + 2], cosine_[kSteps + 2], average_;
+};
+
+// That of the last material asked for is at hand.
+const AlbedoSteps& AlbedoOf(float m, float index) {
+  thread_local std::map<std::pair<float, float>, AlbedoSteps> all;
+  thread_local std::pair<float, float> last{-1.f, -1.f};
+  thread_local const AlbedoSteps* steps = nullptr;
+  if (last != std::pair(m, index)) {
+    last = {m, index};
+    steps = &all.try_emplace(last, m, index).first->second;
+  }
+  return *steps;
+}
+
+void WardDensity(const float* in, float* out, Transport) {
+  const Beckmann distribution{in[3], in[3]};
+  out[0] = distribution.D(Load(in)) * CosTheta(Load(in));
+}
+void PhongDensity(const float* in, float* out, Transport) {
+  const Phong distribution{in[3]};
+  out[0] = distribution.D(Load(in)) * CosTheta(Load(in));
+}
+
+// Kelemen 2001 as printed, with the sine that the cumulative reflection function lacks.
+struct CoupledMaterial {
+  const AlbedoSteps& albedo;
+  Beckmann ward;
+  float index, k;
+
+  float WardDensity(const Vec3& h) const { return ward.D(h) * CosTheta(h); }
+  float MatteDensity(const Vec3& wo) const {
+    return (1 - albedo(CosTheta(wo))) * AbsCosTheta(wo) / (kPi * (1 - albedo.average()));
+  }
+  float Eval(const Vec3& wi, const Vec3& wo) const {
+    if (wi.z * wo.z <= 0) return 0;
+    const Vec3 h = wi + wo;
+    const Vec3 unit = Normalize(wi.z < 0 ? -h : h);
+    const float specular = WardDensity(unit) * FrDielectric(AbsDot(wi, unit), index) / LengthSquared(h);
+    return specular * AbsCosTheta(wo) + k * (1 - albedo(CosTheta(wi))) * MatteDensity(wo);
+  }
+  float Pdf(const Vec3& wi, const Vec3& wo) const {
+    if (wi.z * wo.z <= 0) return 0;
+    const Vec3 unit = Normalize(wi.z < 0 ? -(wi + wo) : wi + wo);
+    const float a = albedo(CosTheta(wi));
+    return a * WardDensity(unit) / (4 * AbsDot(wi, unit)) + k * (1 - a) * MatteDensity(wo);
+  }
+  void Sample(const Vec3& wi, float u1, float u2, float u3, float* out) const {
+    std::fill_n(out, 6, 0.f);
+    const float side = wi.z < 0 ? -1.f : 1.f, a = albedo(CosTheta(wi));
+    const bool specular = u3 < a;
+    if (u3 >= a + k * (1 - a)) return;
+    Vec3 wo;
+    if (specular) {
+      wo = Reflect(wi, side * ward.SampleNormal(u1, u2));
+    } else {
+      const float cos_theta = albedo.MatteCosine(u1), phi = 2 * kPi * u2;
+      const float sin_theta = std::sqrt(std::max(0.f, 1 - Sqr(cos_theta)));
+      wo = {sin_theta * std::cos(phi), sin_theta * std::sin(phi), side * cos_theta};
+    }
+    if (wi.z * wo.z <= 0) return;
+    const float pdf = Pdf(wi, wo);
+    Store(wo, out);
+    out[3] = Eval(wi, wo) / pdf;
+    out[4] = pdf;
+    out[5] = specular ? 1.f : 2.f;
+  }
+};
+
+CoupledMaterial MakeCoupled(const float* in) {
+  return {AlbedoOf(in[1], in[2]), Beckmann{in[1], in[1]}, in[2], in[0]};
+}
+void CoupledEval(const float* in, float* out, Transport) {
+  out[0] = MakeCoupled(in + 6).Eval(Load(in), Load(in + 3));
+}
+void CoupledPdf(const float* in, float* out, Transport) {
+  out[0] = MakeCoupled(in + 6).Pdf(Load(in), Load(in + 3));
+}
+void CoupledEvalPdf(const float* in, float* out, Transport) {
+  const CoupledMaterial material = MakeCoupled(in + 6);
+  out[0] = material.Eval(Load(in), Load(in + 3));
+  out[1] = material.Pdf(Load(in), Load(in + 3));
+}
+void CoupledSample(const float* in, float* out, Transport) {
+  MakeCoupled(in + 6).Sample(Load(in), in[3], in[4], in[5], out);
+}
+
+void AlbedoAtCosine(const float* in, float* out, Transport) {
+  out[0] = AlbedoOf(in[1], in[2])(in[0]);
+  out[1] = 1 - out[0];
+}
+
 void Exp(const float* in, float* out, Transport) { out[0] = std::exp(in[0]); }
 void NegLog1m(const float* in, float* out, Transport) { out[0] = -std::log(1 - in[0]); }
 void SinCos2Pi(const float* in, float* out, Transport) {
@@ -1114,6 +1253,14 @@ constexpr std::array kEntries = {
     Make<KernelIndex("half_vector.refraction_jacobian_cos"), RefractionJacobianCos>(),
     Make<KernelIndex("reflect"), MirrorDirection>(),
     Make<KernelIndex("refract"), RefractedDirection>(),
+
+    Make<KernelIndex("half_vector_density.ward"), WardDensity>(),
+    Make<KernelIndex("half_vector_density.phong"), PhongDensity>(),
+    Make<KernelIndex("coupled.eval"), CoupledEval>(),
+    Make<KernelIndex("coupled.pdf"), CoupledPdf>(),
+    Make<KernelIndex("coupled.eval_pdf"), CoupledEvalPdf>(),
+    Make<KernelIndex("coupled.sample"), CoupledSample>(),
+    Make<KernelIndex("albedo.directional"), AlbedoAtCosine>(),
 
     Make<KernelIndex("roughness.from_moments"), FromMoments>(),
     Make<KernelIndex("roughness.to_moments"), ToMoments>(),

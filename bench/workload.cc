@@ -55,7 +55,7 @@ class Lanes {
   double Value(std::string_view name) const {
     switch (name[0]) {
       case 'm':
-        return name == "mu" ? alpha_x_ * a_ : Component(name, m_);
+        return name == "mu" ? alpha_x_ * a_ : name == "m" ? kWorkloadM : Component(name, m_);
       case 'v':
         return Component(name, wi_.z < 0 ? Combine(-1, wi_, 0, wi_) : wi_);
       case 'w':
@@ -78,6 +78,8 @@ class Lanes {
                : name == "a"        ? a_
                : name == "gamma"    ? (student_ ? gamma_ : 1.6 + a_)
                : name == "order"    ? static_cast<double>(kWorkloadOrder)
+               : name == "index"    ? kWorkloadIndex
+               : name == "k"        ? 0.5
                : name == "Lambda_i" ? a_
                : name == "Lambda_o" ? alpha_x_ * a_
                                     : alpha_x_;
@@ -147,8 +149,13 @@ Workload::Workload(std::size_t kernel, std::size_t n, Parameters parameters) : n
     }
   }
   if (inputs.columns < inputs.count) {
-    rule_ = std::make_unique<QuadratureRule>(kWorkloadOrder);
-    call_.rule = rule_.get();
+    const Lanes lanes(kernel);
+    double values[kMaxInputs];
+    for (std::size_t k = inputs.columns; k < inputs.count; ++k) {
+      values[k - inputs.columns] = lanes.Value(inputs.name[k]);
+    }
+    prepared_ = Prepare(kernel, values);
+    call_.prepared = prepared_.get();
   }
   Lanes lanes(kernel);
   for (std::size_t i = 0; i < n; ++i) {

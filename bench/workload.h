@@ -9,13 +9,15 @@
 
 #include "microlane/kernel_list.h"
 #include "microlane/packets.h"
-#include "microlane/quadrature.h"
+#include "microlane/prepared.h"
 
 namespace microlane {
 
 enum class Parameters { kPerLane, kUniform };
 
-inline constexpr int kWorkloadOrder = 4;  // of quadratures
+inline constexpr int kWorkloadOrder = 4;       // of quadratures
+inline constexpr double kWorkloadM = 0.3;      // of tables
+inline constexpr double kWorkloadIndex = 1.7;  // of tables
 
 // One batch of one kernel. Roughness is log-uniform in 0.01 to 1; eta lies in 1.2 to 2.5, or is the inverse
 // of such; wi is on either side; the normal is drawn from the distribution, and wo is wi mirrored or
@@ -37,7 +39,7 @@ class Workload {
 
   std::size_t n_, loaded_, stored_;
   std::unique_ptr<float, Free> memory_;
-  std::unique_ptr<QuadratureRule> rule_;
+  std::shared_ptr<const Prepared> prepared_;
   Call<float> call_;
 };
 

@@ -37,6 +37,10 @@ struct Arguments {
   Parameter<T> Value(int k) const { return uniform[k] ? Parameter<T>(in[k][0]) : Parameter<T>(in[k].data()); }
   T* Out(int k) { return out[k].data(); }
   MutableDirections<T> OutDirection(int k) { return {Out(k), Out(k + 1), Out(k + 2)}; }
+  // Of the first lane.
+  SpecularLobe Ward(int k) const {
+    return WardLobe(static_cast<double>(in[k][0]), static_cast<double>(in[k + 1][0]));
+  }
   template <Normals kNormals>
   DielectricParametersOf<kNormals, T> Surface(int k) const {
     if constexpr (kNormals == Normals::kPhong) {
@@ -134,7 +138,14 @@ void RunReflector(Arguments<T>& a) {
   constexpr bool v_cavity = row.joint == DielectricQuantity::kVCavity;
   const auto surface = a.template Opaque<place.normals, place.reflector>(samples && !v_cavity ? 5 : 6);
   const Directions<T> wi = a.Direction(0);
-  if constexpr (v_cavity && samples) {
+  constexpr bool kelemen = row.joint == DielectricQuantity::kKelemen;
+  if constexpr (kelemen && samples) {
+    Calls::SampleKelemen(a.n, wi, a.Lanes(3), a.Lanes(4), surface, a.Samples(), a.accuracy);
+  } else if constexpr (kelemen && row.what == DielectricQuantity::kEvalPdf) {
+    Calls::EvalPdfKelemen(a.n, wi, a.Direction(3), surface, a.Out(0), a.Out(1), a.accuracy);
+  } else if constexpr (kelemen) {
+    Calls::EvalKelemen(a.n, wi, a.Direction(3), surface, a.Out(0), a.accuracy);
+  } else if constexpr (v_cavity && samples) {
     Calls::SampleVCavity(a.n, wi, a.Lanes(3), a.Lanes(4), a.Lanes(5), surface, a.Samples(), a.accuracy);
   } else if constexpr (v_cavity && row.what == DielectricQuantity::kEvalPdf) {
     Calls::EvalPdfVCavity(a.n, wi, a.Direction(3), surface, a.Out(0), a.Out(1), a.accuracy);
@@ -297,6 +308,14 @@ const std::vector<Row<T>>& Rows() {
       {"reflect", [](A& a) { Reflect(a.n, a.Direction(0), a.Direction(3), a.OutDirection(0), a.accuracy); }},
       {"refract", [](A& a) { Refract(a.n, a.Direction(0), a.Direction(3), a.Value(6), a.OutDirection(0), a.accuracy); }},
 
+      {"half_vector_density.ward", [](A& a) { half_vector_density::Ward(a.n, a.Direction(0), a.Value(3), a.Out(0), a.accuracy); }},
+      {"half_vector_density.phong", [](A& a) { half_vector_density::Phong(a.n, a.Direction(0), a.Value(3), a.Out(0), a.accuracy); }},
+      {"coupled.eval", [](A& a) { coupled::Eval(a.n, a.Direction(0), a.Direction(3), a.Value(6), AlbedoTable(a.Ward(7)), a.Out(0), a.accuracy); }},
+      {"coupled.pdf", [](A& a) { coupled::Pdf(a.n, a.Direction(0), a.Direction(3), a.Value(6), AlbedoTable(a.Ward(7)), a.Out(0), a.accuracy); }},
+      {"coupled.eval_pdf", [](A& a) { coupled::EvalPdf(a.n, a.Direction(0), a.Direction(3), a.Value(6), AlbedoTable(a.Ward(7)), a.Out(0), a.Out(1), a.accuracy); }},
+      {"coupled.sample", [](A& a) { coupled::Sample(a.n, a.Direction(0), a.Lanes(3), a.Lanes(4), a.Lanes(5), a.Value(6), AlbedoTable(a.Ward(7)), a.Samples(), a.accuracy); }},
+      {"albedo.directional", [](A& a) { albedo::Directional(a.n, a.Lanes(0), AlbedoTable(a.Ward(1)), a.Out(0), a.Out(1), a.accuracy); }},
+
       {"roughness.from_moments", [](A& a) { roughness::FromMoments(a.n, a.Lanes(0), a.Lanes(1), a.Lanes(2), a.Lanes(3), a.Lanes(4), a.Out(0), a.Out(1), a.Out(2), a.accuracy); }},
       {"roughness.to_moments", [](A& a) { roughness::ToMoments(a.n, a.Lanes(0), a.Lanes(1), a.Lanes(2), a.Lanes(3), a.Lanes(4), a.Out(0), a.Out(1), a.Out(2), a.accuracy); }},
 
@@ -344,6 +363,8 @@ Arguments<T> RandomArguments(const Names& inputs, std::size_t n, bool uniform, s
       double value = input.low + (input.high - input.low) * unit(random);
       if (input.low > 0) value = input.low * std::pow(input.high / input.low, unit(random));
       if (name == "order") value = 3;
+      if (name == "m") value = 0.3;
+      if (name == "index") value = 1.7;
       if (name == "exponent") value = std::pow(2e10, unit(random)) - 1;
       if (name.back() == 'x' && name.size() <= 3) value = normal(random);
       if ((name.back() == 'y' || name.back() == 'z') && name.size() <= 3) value = normal(random);

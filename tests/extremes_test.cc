@@ -39,6 +39,7 @@ Range RangeOf(std::string_view output, bool fast) {
   constexpr double kLargest = 1.7976931348623157e308;
   const double slack = fast ? 0x1p-11 : 0;
   if (output == "G1" || output == "G2" || output == "F" || output == "T") return {0, 1 + slack};
+  if (output == "albedo" || output == "deficit") return {0, 1 + slack};
   if (output == "phi") return {0, 3.14159274101257324 + slack};
   if (output == "lobe") return {0, 2};
   if (output == "r_xy") return {-1, 1};

@@ -53,14 +53,17 @@ enum Field : int {
   kMu,
   kGamma,
   kOrder,
+  kK,
+  kM,
+  kIndex,
   kNumFields
 };
 constexpr std::string_view kFieldNames[] = {
-    "mx",      "my",   "mz",     "vx",     "vy",        "vz",        "wix",       "wiy",
-    "wiz",     "wox",  "woy",    "woz",    "cos_i",     "cos_o",     "alpha",     "alpha_x",
-    "alpha_y", "r_xy", "mean_x", "mean_y", "moment_xx", "moment_yy", "moment_xy", "exponent",
-    "eta",     "n",    "kappa",  "f0",     "Lambda_i",  "Lambda_o",  "u1",        "u2",
-    "u3",      "x",    "a",      "mu",     "gamma",     "order"};
+    "mx",     "my",       "mz",        "vx",        "vy",        "vz",       "wix",     "wiy",     "wiz",
+    "wox",    "woy",      "woz",       "cos_i",     "cos_o",     "alpha",    "alpha_x", "alpha_y", "r_xy",
+    "mean_x", "mean_y",   "moment_xx", "moment_yy", "moment_xy", "exponent", "eta",     "n",       "kappa",
+    "f0",     "Lambda_i", "Lambda_o",  "u1",        "u2",        "u3",       "x",       "a",       "mu",
+    "gamma",  "order",    "k",         "m",         "index"};
 static_assert(std::size(kFieldNames) == kNumFields && std::size(kInputs) == kNumFields,
               "one field per input");
 
@@ -107,11 +110,12 @@ Shape MakeShape(std::size_t kernel) {
     shape.field[i] = static_cast<Field>(field);
     shape.has[field] = true;
   }
-  shape.distribution = shape.has[kExponent]        ? Distribution::kPhong
-                       : Contains(id, "beckmann")  ? Distribution::kBeckmann
+  shape.distribution = shape.has[kExponent] ? Distribution::kPhong
+                       : Contains(id, "beckmann") || Contains(id, "ward") || shape.has[kM]
+                           ? Distribution::kBeckmann
                        : Contains(id, "student_t") ? Distribution::kStudentT
                                                    : Distribution::kGgx;
-  shape.isotropic = shape.has[kAlpha] || shape.has[kExponent];
+  shape.isotropic = shape.has[kAlpha] || shape.has[kExponent] || shape.has[kM];
   shape.pairs = shape.has[kWox];
   shape.samples = shape.has[kWix] && shape.has[kU1];
   shape.visible = Contains(id, "visible");
@@ -168,6 +172,7 @@ void Put(Scene& scene, Field first, const Vector& v) {
 // The alphas that matter: the exponent's own for Phong.
 double RoughnessX(const Shape& shape, const Scene& scene) {
   return shape.distribution == Distribution::kPhong ? 1 / std::sqrt(scene[kExponent] / 2 + 1)
+         : shape.has[kM]                            ? scene[kM]
          : shape.isotropic                          ? scene[kAlpha]
                                                     : scene[kAlphaX];
 }
@@ -254,6 +259,18 @@ double Doubles(double x, int steps) {
   return x;
 }
 
+// Materials of few tables: what a table is made from takes these values alone.
+constexpr double kTableM[] = {1e-4, 1e-3, 0.03, 0.1, 0.3, 0.8, 2, 10};
+constexpr double kTableIndices[] = {1, 1.0003, 1.1, 1.33, 1.5, 1.7, 2.42, 4};
+template <std::size_t kCount>
+double Nearest(const double (&values)[kCount], double x) {
+  const double* best = values;
+  for (const double& value : values) {
+    if (std::abs(value - x) < std::abs(*best - x)) best = &value;
+  }
+  return static_cast<float>(*best);
+}
+
 bool IsDirection(Field field) { return field <= kWoz; }
 bool IsCosine(Field field) { return field == kMz || field == kVz || field == kWiz || field == kWoz; }
 
@@ -263,6 +280,8 @@ double Fit(Field field, double x, Values values) {
   if (values == Values::kFloats) x = static_cast<float>(x);
   if (field == kU1 || field == kU2 || field == kU3) return std::min(std::max(x, 0.0), kLargestU);
   if (field == kOrder) x = std::round(x);
+  if (field == kM) x = Nearest(kTableM, x);
+  if (field == kIndex) x = Nearest(kTableIndices, x);
   if (IsCosine(field) && std::abs(x) < kSmallestCosine) {
     return std::copysign(static_cast<double>(static_cast<float>(kSmallestCosine)), x);
   }
@@ -274,15 +293,24 @@ double Fit(Field field, double x, Values values) {
   return std::min(std::max(x, low), high);
 }
 
+// What the objects that calls take whole are made from.
+struct PreparedValues {
+  double order, m, index;
+};
+
 class SceneMaker {
  public:
-  // order: of the quadrature, which the scene does not draw.
-  SceneMaker(const Shape& shape, Random& random, Values values, double order)
-      : shape_(shape), random_(random), values_(values), order_(order) {}
+  // prepared: what the scene does not draw.
+  SceneMaker(const Shape& shape, Random& random, Values values, const PreparedValues& prepared)
+      : shape_(shape), random_(random), values_(values), prepared_(prepared) {}
 
   Scene Make() {
     scene_.fill(0);
-    scene_[kOrder] = order_;
+    scene_[kOrder] = prepared_.order;
+    scene_[kM] = prepared_.m;
+    if (shape_.has[kK])
+      scene_[kK] = Fit(kK, random_.Chance(0.2) ? random_.Index(2) : random_.Uniform(), values_);
+    scene_[kIndex] = prepared_.index;
     DrawRoughness();
     scene_[kEta] = Fit(kEta, Eta(), values_);
     scene_[kN] = ConductorIndex();
@@ -602,7 +630,7 @@ class SceneMaker {
   const Shape& shape_;
   Random& random_;
   const Values values_;
-  const double order_;
+  const PreparedValues prepared_;
   Scene scene_;
 };
 
@@ -630,6 +658,7 @@ constexpr double kGridEtas[] = {1,    1.0003, 1.33, 1.5,      1.51,     2.42,   
                                 0.66, 0.41,   0.25, 1 + 1e-7, 1 - 1e-7, 1 + 1e-5, 1.001, 0.999,      1.1};
 constexpr double kGridIndices[] = {0.05, 0.1, 0.25, 0.5, 0.9, 1 - 1e-7, 1, 1 + 1e-5, 1.5, 2.5, 4, 10};
 constexpr double kGridKappas[] = {0, 1e-20, 1e-7, 1e-4, 0.01, 0.3, 1, 3, 10, 20};
+constexpr double kGridK[] = {0, 0.18, 0.5, 1};
 constexpr double kGridF0[] = {0, 1e-6, 0.04, 0.3, 0.9, 1 - 1e-7, 1};
 constexpr double kGridLambdas[] = {0,   1e-40, 1e-8, 1e-3,           0.1, 0.5, 1, 3, 100,
                                    1e7, 1e19,  1e37, 0x1.fffffep+127};
@@ -715,6 +744,9 @@ Scene GridScene(const Shape& shape, Digits& digits) {
   take(kU2, kGridU);
   take(kU3, kGridU);
   take(kOrder, kGridOrders);
+  take(kK, kGridK);
+  take(kM, kTableM);
+  take(kIndex, kTableIndices);
   take(kCosI, kGridCosines);
   take(kCosO, kGridCosines);
   if (shape.has[kX]) scene[kX] = -104 + 192.0 / 4096 * static_cast<double>(digits.Take(4097));
@@ -792,6 +824,9 @@ class ExtremeMaker {
     scene[kMu] = 1;
     scene[kGamma] = 2.5;
     scene[kOrder] = 3;
+    scene[kK] = 0.5;
+    scene[kM] = 0.3f;
+    scene[kIndex] = 1.7f;
     return scene;
   }
 
@@ -1359,12 +1394,19 @@ class ExtremeMaker {
   std::set<std::pair<std::string_view, Point>> seen_;
 };
 
-// One order for some lanes that follow each other, as a call takes it for all: mostly low, for a sum has 3
-// order^2 terms.
-double OrderOf(std::uint64_t seed, std::uint64_t index) {
+// The same for some lanes that follow each other, as a call takes one object for all. Orders are mostly low,
+// for a sum has 3 order^2 terms.
+PreparedValues PreparedValuesOf(std::uint64_t seed, std::uint64_t index) {
   Random random(seed ^ 0x0DE4, index / 32);
   const double u = random.Uniform();
-  return u < 0.9 ? 1 + random.Index(5) : u < 0.985 ? 6 + random.Index(4) : 10 + random.Index(23);
+  const double order = u < 0.9     ? 1 + random.Index(5)
+                       : u < 0.985 ? 6 + random.Index(4)
+                                   : 10 + random.Index(23);
+  const auto pick = [&](const auto& values) {
+    return static_cast<double>(static_cast<float>(values[random.Index(static_cast<int>(std::size(values)))]));
+  };
+  const double m = pick(kTableM);
+  return {order, m, pick(kTableIndices)};
 }
 
 }  // namespace
@@ -1375,7 +1417,7 @@ RandomPoints::RandomPoints(std::size_t kernel, std::uint64_t seed, Values values
 Point RandomPoints::operator()(std::uint64_t index) const {
   Random random(seed_, index);
   const Shape& shape = Shapes()[kernel_];
-  return Cut(shape, SceneMaker(shape, random, values_, OrderOf(seed_, index)).Make(), values_);
+  return Cut(shape, SceneMaker(shape, random, values_, PreparedValuesOf(seed_, index)).Make(), values_);
 }
 
 std::vector<Point> GridPoints(std::size_t kernel, std::size_t count) {

@@ -183,9 +183,23 @@ constexpr DielectricSampler kDielectricSamplers[] = {
     {"sample_visible_transmission_separable", "eval_transmission_separable", "pdf_visible_transmission", 101},
 };
 
+// The coupled model, from wi at cos_i; Kelemen 2001's n = 1.7, m = 0.03 and m = 0.8 among them.
+struct CoupledCase {
+  double cos_i, m, index, k;
+
+  Direction wi() const { return Spherical(std::acos(cos_i), 0.7); }
+  std::string Text() const { return microlane::Text("cos %g m %g index %g k %g", cos_i, m, index, k); }
+};
+constexpr CoupledCase kCoupledCases[] = {
+    {0.95, 0.03, 1.7, 1}, {0.6, 0.03, 1.7, 0.5}, {0.2, 0.03, 1.7, 0.2},
+    {0.9, 0.8, 1.7, 1},   {0.5, 0.8, 1.7, 0.5},  {-0.15, 0.8, 1.7, 1},
+    {0.7, 0.3, 4, 0},     {0.4, 0.1, 4, 0.7},    {-0.8, 0.3, 1, 0.9},
+};
+
 // Sidak's correction over all chi-square tests of this file.
 double ChiSquareSignificance() {
-  std::size_t count = NormalCases().size() + 2 * VisibleCases().size() + VCavityCases().size();
+  std::size_t count =
+      std::size(kCoupledCases) + NormalCases().size() + 2 * VisibleCases().size() + VCavityCases().size();
   const std::size_t cases = DielectricCases().size();
   for (const DielectricSampler& sampler : kDielectricSamplers) {
     count += (cases + sampler.every - 1) / sampler.every;
@@ -734,6 +748,28 @@ TEST(RoughDielectricSampler, DensityIsItsPdfOverTheWholeSphereAndFailuresAreTheR
           c.HorizonOfFacets());
       tally.Add(test, kSamples, c.Text());
     }
+  }
+}
+
+// Both lobes and the stop: what is drawn is pdf's, and a sample that is none has what pdf leaves.
+TEST(CoupledSampler, DensityIsItsPdfAndFailuresAreTheRest) {
+  constexpr std::size_t kSamples = 100000;
+  ChiSquareTally tally("coupled.sample against coupled.pdf");
+  std::uint64_t seed = 7000;
+  for (const CoupledCase& c : kCoupledCases) {
+    std::mt19937_64 random(seed);
+    const Accuracy accuracy = seed++ % 4 == 0 ? Accuracy::kFast : Accuracy::kStandard;
+    const auto draw = [&](std::size_t n) {
+      const Column<float> u1 = UniformNumbers<float>(n, random), u2 = UniformNumbers<float>(n, random),
+                          u3 = UniformNumbers<float>(n, random);
+      return RunDirection<float>("coupled.sample", n, {accuracy}, c.wi(), u1, u2, u3, c.k, c.m, c.index);
+    };
+    const DirectionColumns<float> pilot = draw(20000), samples = draw(kSamples);
+    const Direction wi = c.wi();
+    const DensityTest test = TestDensity(pilot, samples, [&](const DirectionColumns<double>& wo) {
+      return RunOne<double>("coupled.pdf", wo.size(), {}, wi, wo, c.k, c.m, c.index);
+    });
+    tally.Add(test, kSamples, c.Text());
   }
 }
 

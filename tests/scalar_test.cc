@@ -168,6 +168,13 @@ constexpr ScalarBound kScalarBounds[] = {
     {"half_vector.refraction", 0.51, 0.51},
     {"half_vector.refraction_jacobian", 0.51, 0.51},
     {"half_vector.refraction_jacobian_cos", 0.51, 0.51},
+    {"half_vector_density.ward", 3, 8},
+    {"half_vector_density.phong", 3, 5},
+    {"albedo.directional", 0.51, 4},
+    {"coupled.eval", 0.51, 64},
+    {"coupled.pdf", 0.51, 64},
+    {"coupled.eval_pdf", 0.51, 64},
+    {"coupled.sample", 0.51, 0x1p14},
     {"reflect", 4, 4},
     {"refract", 6, 6},
 };
@@ -457,6 +464,9 @@ class Generator {
     }
     if (name == "a") return Chance(0.05) ? 0 : LogUniform(Chance(0.1) ? 1e-44 : 1e-5, Chance(0.5) ? 10 : 1e4);
     if (name == "order") return 1 + std::floor(Chance(0.05) ? 32 * Uniform() : 5 * Uniform());
+    if (name == "k") return Chance(0.2) ? 0 : Chance(0.2) ? 1 : Uniform();
+    if (name == "m") return Chance(0.5) ? 0.03 : Chance(0.5) ? 0.8 : 1e-4;  // few tables
+    if (name == "index") return Chance(0.6) ? 1.7 : Chance(0.5) ? 1.0003 : 4;
     ADD_FAILURE() << "no generator for input " << name;
     return 0;
   }
@@ -607,6 +617,8 @@ TEST_P(ScalarKernel, GivesFiniteNumbersForFiniteInputs) {
       }
       if (names.name[i] == "eta" && random() % 4 == 0) value = 1;
       if (names.name[i] == "order") value = std::round(value);
+      if (names.name[i] == "m") value = random() % 2 == 0 ? 1e-4f : 0.8f;  // few tables
+      if (names.name[i] == "index") value = random() % 2 == 0 ? 4.f : 1.7f;
       in[i] = value;
     }
     ExpectFinite<float>(kernel, in);

@@ -34,9 +34,9 @@ class CallBuilder {
     call_.transport = transport;
     return *this;
   }
-  // The rule must outlive the call.
-  CallBuilder& With(const QuadratureRule& rule) {
-    call_.rule = &rule;
+  // The object must outlive the call.
+  CallBuilder& With(const Prepared& prepared) {
+    call_.prepared = &prepared;
     return *this;
   }
   // kKernel: index in the kernel list; code: where RunFrom finds it.

@@ -150,6 +150,33 @@ HWY_INLINE void InDouble2(D d, Vec<D>& o0, Vec<D>& o1, In... in) {
   InDouble6<TwoOutputs<Op>>(d, o0, o1, o2, o3, o4, o5, in...);
 }
 
+// The double lanes of half a vector of floats, or doubles as they are.
+#if HWY_TARGET == HWY_SCALAR  // has no halves
+template <class D>
+using HalfInDouble = hn::Rebind<double, D>;
+#else
+template <class D>
+using HalfInDouble = hn::Repartition<double, D>;
+#endif
+
+template <class DD>
+HWY_INLINE Vec<DD> LoadWide(DD dd, const double* from) {
+  return hn::LoadU(dd, from);
+}
+template <class DD>
+HWY_INLINE Vec<DD> LoadWide(DD dd, const float* from) {
+  return hn::PromoteTo(dd, hn::LoadU(hn::Rebind<float, DD>(), from));
+}
+template <class DD>
+HWY_INLINE void StoreNarrow(DD dd, Vec<DD> x, double* to) {
+  hn::StoreU(x, dd, to);
+}
+template <class DD>
+HWY_INLINE void StoreNarrow(DD, Vec<DD> x, float* to) {
+  const hn::Rebind<float, DD> df;
+  hn::StoreU(hn::DemoteTo(df, x), df, to);
+}
+
 struct FusedMulAddOp {
   template <class DD>
   static HWY_INLINE void Run(DD, Vec<DD>& sum, Vec<DD>& unused, Vec<DD> a, Vec<DD> b, Vec<DD> c) {

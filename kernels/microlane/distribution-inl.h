@@ -41,7 +41,7 @@ template <class Dist, bool kFloat>
 using ForResult = typename ResultPolicy<Dist, kFloat>::Type;
 
 // Walter 2007 Eq. 23; Heitz 2014 Eq. 99; of V-cavities min(1, 2 hz |i.n|/i.h, 2 hz |o.n|/o.h).
-enum class JointMasking { kSeparable, kHeightCorrelated, kVCavity };
+enum class JointMasking { kSeparable, kHeightCorrelated, kVCavity, kKelemen };
 
 template <class Dist>
 struct LogDensityOp {

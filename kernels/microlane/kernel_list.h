@@ -72,7 +72,7 @@ struct Input {
 struct Kernel {
   std::string_view id;
   // Names in order; those behind '|' may be one value for the whole batch, and those behind a second '|'
-  // belong to an object that the call takes whole (Call::rule).
+  // belong to an object that the call takes whole (Call::prepared).
   std::string_view inputs;
   std::string_view outputs;  // names in order
   std::string_view source;   // paper and equation
@@ -122,6 +122,9 @@ inline constexpr Input kInputs[] = {
     {"mu", 0, 0x1p60, "1 / (alpha tan(theta) sqrt(gamma - 1))"},
     {"gamma", 1.55, 1e10, "Student-T's exponent: 2 is GGX, infinity Beckmann"},
     {"order", 1, 32, "order of a quadrature, a whole number"},
+    {"k", 0, 1, "albedo of the matte part, one channel of its colour"},
+    {"m", 1e-4, 10, "root mean square slope of Kelemen 2001, alpha of Beckmann"},
+    {"index", 1, 4, "index of a dielectric over that of the outside"},
 };
 
 inline constexpr Output kOutputs[] = {
@@ -146,7 +149,7 @@ inline constexpr Output kOutputs[] = {
     {"f_cos", Metric::kUlp, "1/sr"},
     {"pdf", Metric::kUlp, "1/sr"},
     {"weight", Metric::kConditioned, "1"},
-    {"lobe", Metric::kExact, "0 none, 1 reflection, 2 transmission"},
+    {"lobe", Metric::kExact, "0 none, 1 reflection, 2 transmission or matte"},
     {"alpha_x", Metric::kUlp, "1"},
     {"alpha_y", Metric::kUlp, "1"},
     {"r_xy", Metric::kUlp, "1"},
@@ -156,6 +159,9 @@ inline constexpr Output kOutputs[] = {
     {"sin", Metric::kUlp, "1"},
     {"cos", Metric::kUlp, "1"},
     {"y", Metric::kUlp, "1"},
+    {"density", Metric::kUlp, "1/sr"},
+    {"albedo", Metric::kUlp, "1"},
+    {"deficit", Metric::kUlp, "1"},
 };
 
 inline constexpr std::string_view kFresnelNote =
@@ -190,6 +196,12 @@ inline constexpr std::string_view kVCavityNote =
 inline constexpr std::string_view kSampleVCavityReflectionNote =
     "m of sample_visible_normal_v_cavity of the distribution, on wi's side, wo = 2 (wi.m) m - wi. weight = f |cos(theta_o)| / pdf = F G/G1(wi) "
     "<= 1. Where wo is not on wi's side, and at wiz = 0: lobe 0, and every output 0.";
+inline constexpr std::string_view kKelemenNote =
+    "f |cos(theta_o)| of f = P_H F/(H.H), H = wi + wo, P_H = D cos(theta_h): Ward's of Beckmann (Eq. 4), Phong's of Phong (Eq. 5, n = exponent "
+    "+ 1); 0 for opposite sides.";
+inline constexpr std::string_view kSampleKelemenNote =
+    "m by P_H = D cos on wi's side, wo = 2 (wi.m) m - wi. weight = f |cos(theta_o)| / pdf = F |wo.z|/(wi.m) <= 2. Where wo is not on wi's side: "
+    "lobe 0, and every output 0.";
 inline constexpr std::string_view kDiffuseNote =
     "f |cos(theta_o)| of white Lambertian facets without light from facet to facet, as a sum over 3 order^2 normals (quadrature.h), "
     "against which the error bounds are; 0 for opposite sides and where wiz or woz is 0. Height-correlated: G = 1/(1 + Lambda_i + "
@@ -216,6 +228,18 @@ inline constexpr std::string_view kSampleVisibleLobeNote =
 inline constexpr std::string_view kSampleLobeNote =
     "As sample with one lobe and no choice: weight = F or 1 - F times Walter 41, pdf without that factor; lobe 0 also "
     "where total internal reflection leaves nothing to transmit.";
+
+inline constexpr std::string_view kAlbedoNote =
+    "a and 1 - a, linear between the entries of a table (albedo.h), against which the error bounds are; the table itself is within 1e-4 of "
+    "the integral. |cos_i| is used, and above 1 counts as 1.";
+
+inline constexpr std::string_view kCoupledNote =
+    "f |cos(theta_o)| of f = P_H F/(H.H) + k (1 - a_i)(1 - a_o)/(pi (1 - a_average)), P_H as half_vector_density.ward of m, a as "
+    "albedo.directional with the table's entries; 0 for opposite sides and where wiz or woz is 0.";
+inline constexpr std::string_view kSampleCoupledNote =
+    "u3 < a_i: lobe 1, m by P_H and wo = 2 (wi.m) m - wi; else u3 < a_i + k (1 - a_i): lobe 2, azimuth 2 pi u2 and cos(theta_o) by the inverse "
+    "of int (1 - a) cos sin (the sine is missing in print) from the normal on, at u1 of it; else lobe 0 and every output 0, as where wo is not "
+    "on wi's side. pdf of both lobes together; weight = f |cos(theta_o)| / pdf.";
 
 inline constexpr Kernel kComponentKernels[] = {
     // Mathematics that Highway 1.0.3 lacks, as the kernels use it.
@@ -246,6 +270,9 @@ inline constexpr Kernel kComponentKernels[] = {
     {"reflect", "wix wiy wiz mx my mz", "wox woy woz", "Walter 2007 Eq. 39, as 2 (i.m) m - i", "", false, {1, 4, 3, 8, 2.5}},
     {"refract", "wix wiy wiz mx my mz | eta", "wox woy woz", "Walter 2007 Eq. 40", "sign(i.n) is sign(wiz), sign(0) = 1; 0 under total internal reflection. Double lanes do not make up for the cancellation of g^2 at the critical angle.", false, {1, 4, 1100, 8, 0x1p17}},
 
+    {"half_vector_density.ward", "mx my mz | alpha", "density", "Kelemen 2001 Eq. 4 with m = alpha", "Of solid angle: mz D of beckmann.D_isotropic; 0 where mz <= 0. Double lanes round an exponent of up to 745 once.", false, {1, 4, 2800, 8, 3000}},
+    {"half_vector_density.phong", "mx my mz | exponent", "density", "Kelemen 2001 Eq. 5 with n = exponent + 1", "Of solid angle: mz D of phong.D, (exponent + 2)/(2 pi) mz^(exponent + 1); 0 where mz <= 0. Double lanes round an exponent of up to 745 once.", false, {1, 4, 128, 8, 2000}},
+
     {"masking.v_cavity", "vx vy vz mx my mz", "G1", "Heitz 2014 Eq. 49; physically based", "min(1, 2 mz |vz| / |v.m|). v of either side, -v in place of v below; 0 where v.m and vz differ in sign or either is 0, and where mz <= 0. Satisfies the weak white furnace with every distribution of normals.", false, {1, 4, 1100, 8, 2}},
     {"masking.implicit", "vx vy vz mx my mz", "G1", "Heitz 2014 Eq. 56; not physically based", kMaskingSides, false, {1, 1, 1, 1, 1}},
     {"masking.schlick_smith", "vx vy vz mx my mz | alpha", "G1", "Heitz 2014 section 4.3, Schlick 1994; not physically based", "c/(c (1 - k) + k), c = |vz|, k = alpha sqrt(2/pi). v of either side; 0 where v.m and vz differ in sign or either is 0.", false, {1, 4, 1200, 8, 4}},
@@ -256,6 +283,13 @@ inline constexpr Kernel kComponentKernels[] = {
     {"masking.student_lambda", "vx vy vz | alpha_x alpha_y gamma", "Lambda", "Heitz 2014 Eqs. 41-43 of Student-T slopes (d'Eon 2023; Burley 2012)", "Slopes of density 1/(pi alpha_x alpha_y) (1 + (x^2/alpha_x^2 + y^2/alpha_y^2)/(gamma - 1))^-gamma. The same on both sides of the surface; 0 along the normal; the largest finite number where the exact value exceeds it. Double lanes round an exponent of up to 745 once.", false, {1, 1, 1, 1, 6000}},
     {"masking.direction_correlated", "Lambda_i Lambda_o wix wiy wox woy", "G2", "Heitz 2014 Eq. 100", kDirectionNote, false, {1, 4, 2200, 8, 6}},
     {"masking.height_direction_correlated", "Lambda_i Lambda_o wix wiy wox woy", "G2", "Heitz 2014 Eq. 101", kDirectionNote, false, {1, 4, 1200, 8, 4}},
+
+    {"albedo.directional", "cos_i | | m index", "albedo deficit", "Kelemen 2001 section 2.1.5, of Eqs. 3, 4", kAlbedoNote, false, {1, 2, 2, 2, 2}},
+
+    {"coupled.eval", "wix wiy wiz wox woy woz | k | m index", "f_cos", "Kelemen 2001 Eqs. 3, 4, 7", kCoupledNote, false, {1, 14, 6500, 20, 0x1p12}},
+    {"coupled.pdf", "wix wiy wiz wox woy woz | k | m index", "pdf", "Kelemen 2001 sections 2.1.4, 2.2.1", "Density with which sample finds wo: a_i P_H/(4 cos(beta)) + k (1 - a_i) (1 - a_o) |cos(theta_o)|/(pi (1 - a_average)).", false, {1, 10, 2400, 18, 4800}},
+    {"coupled.eval_pdf", "wix wiy wiz wox woy woz | k | m index", "f_cos pdf", "Kelemen 2001 Eqs. 3, 4, 7, section 2.2.1", "eval and pdf in one call.", false, {1, 14, 6500, 20, 0x1p12}},
+    {"coupled.sample", "wix wiy wiz u1 u2 u3 | k | m index", "wox woy woz weight pdf lobe", "Kelemen 2001 sections 2.1.4, 2.2.1", kSampleCoupledNote, false, {1, 1, 1, 1, 0x1p14}},
 
     {"roughness.from_moments", "mean_x mean_y moment_xx moment_yy moment_xy", "alpha_x alpha_y r_xy", "Olano and Baker 2010; Dupuy et al. 2013", "alpha^2/2 = E[x^2] - E[x]^2, r = (E[x y] - E[x] E[y])/(alpha_x alpha_y/2) of slopes; alphas within 1e-5 and 100, |r| at most 0.9999.", false, {1, 1, 1, 1, 4}},
     {"roughness.to_moments", "alpha_x alpha_y r_xy mean_x mean_y", "moment_xx moment_yy moment_xy", "Olano and Baker 2010; Dupuy et al. 2013", "E[x^2] = E[x]^2 + alpha_x^2/2, E[x y] = E[x] E[y] + r alpha_x alpha_y/2 of slopes.", false, {1, 1, 1, 1, 4}},
@@ -463,7 +497,7 @@ constexpr bool HasVisibleNormals(Normals normals) {
 // the distribution has them.
 struct DielectricQuantity {
   enum What { kEval, kPdf, kEvalPdf, kSample };
-  enum Joint { kCorrelated, kSeparable, kVCavity };
+  enum Joint { kCorrelated, kSeparable, kVCavity, kKelemen };
   std::string_view name;
   What what;
   bool reflects, transmits;  // both: the lobe is chosen by Fresnel
@@ -535,6 +569,9 @@ inline constexpr DielectricQuantity kReflectorQuantities[] = {
     {"eval_v_cavity", DielectricQuantity::kEval, true, false, DielectricQuantity::kVCavity, "Walter 2007 Eq. 20; Kelemen 2001 Eq. 1; Heitz 2014 Eq. 49", kVCavityNote},
     {"eval_pdf_v_cavity", DielectricQuantity::kEvalPdf, true, false, DielectricQuantity::kVCavity, "Walter 2007 Eqs. 14, 20; Heitz 2014 Eqs. 16, 49", "eval_v_cavity and the density with which sample_v_cavity finds wo, in one call."},
     {"sample_v_cavity", DielectricQuantity::kSample, true, false, DielectricQuantity::kVCavity, "Heitz and d'Eon 2014; Walter 2007 Eqs. 14, 39; Heitz 2014 Eqs. 16, 49", kSampleVCavityReflectionNote},
+    {"eval_kelemen", DielectricQuantity::kEval, true, false, DielectricQuantity::kKelemen, "Kelemen 2001 Eq. 3", kKelemenNote},
+    {"eval_pdf_kelemen", DielectricQuantity::kEvalPdf, true, false, DielectricQuantity::kKelemen, "Kelemen 2001 Eqs. 3, 9; Walter 2007 Eqs. 14, 24, 38", "eval_kelemen and the density with which sample_kelemen finds wo, in one call."},
+    {"sample_kelemen", DielectricQuantity::kSample, true, false, DielectricQuantity::kKelemen, "Kelemen 2001 section 2.1.4; Walter 2007 Eqs. 14, 37, 39", kSampleKelemenNote},
     {"eval_pdf_visible", DielectricQuantity::kEvalPdf, true, false, DielectricQuantity::kCorrelated, "Walter 2007 Eqs. 14, 20; Heitz 2014 Eqs. 16, 99", "eval and the density with which sample_visible finds wo, in one call.", true},
     {"eval_pdf_visible_separable", DielectricQuantity::kEvalPdf, true, false, DielectricQuantity::kSeparable, "Walter 2007 Eqs. 14, 20, 23; Heitz 2014 Eq. 16", "eval_separable and the density with which sample_visible finds wo, in one call.", true},
     {"sample_visible", DielectricQuantity::kSample, true, false, DielectricQuantity::kCorrelated, "Walter 2007 Eqs. 14, 39; Heitz 2014 Eqs. 16, 99", kReflectorSampleVisibleNote, true},
@@ -998,7 +1035,7 @@ constexpr Names Split(std::string_view text) {
 }
 
 // Whether the kernel takes an object whole.
-constexpr bool TakesRule(std::size_t kernel) {
+constexpr bool TakesPrepared(std::size_t kernel) {
   const Names inputs = Split(kKernels[kernel].inputs);
   return inputs.columns < inputs.count;
 }

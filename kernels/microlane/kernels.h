@@ -9,8 +9,9 @@
 
 namespace microlane {
 
-// Runs kernel `kernel` (an index into kKernels) on the chosen target. Thread-safe. Of a kernel with an order
-// and a call without a rule, in[columns] is the order: each run of equal orders gets a rule made for it.
+// Runs kernel `kernel` (an index into kKernels) on the chosen target. Thread-safe. Of a kernel that takes an
+// object and a call without one, in[columns] and those after it are what it is made from: each run of lanes
+// with equal values gets its own.
 void RunKernel(std::size_t kernel, Accuracy accuracy, const Call<float>& call, std::size_t n);
 // Double lanes; there is one accuracy.
 void RunKernel(std::size_t kernel, const Call<double>& call, std::size_t n);

@@ -71,7 +71,7 @@ using DirectionsOf = typename packets_internal::NotDeduced<Directions<T>>::Type;
 template <class T>
 using ParameterOf = typename packets_internal::NotDeduced<Parameter<T>>::Type;
 
-class QuadratureRule;  // quadrature.h
+class Prepared;  // prepared.h
 
 // One batch call by position, as the kernel list orders inputs and outputs. Only the pointers that the kernel
 // has are set and read: clearing the others would cost more than a short batch.
@@ -81,7 +81,7 @@ struct Call {
   bool uniform[12] = {};  // in[k] is one value; only for inputs behind the list's '|'
   T* out[6];              // an output may be the same array as an input; other overlap is not allowed
   Transport transport = Transport::kRadiance;
-  const QuadratureRule* rule = nullptr;  // of kernels with an order
+  const Prepared* prepared = nullptr;  // of kernels with inputs behind the list's second bar
 };
 
 }  // namespace microlane

@@ -19,8 +19,9 @@
 #define MICROLANE_QUADRATURE_H_
 
 #include <cstddef>
-#include <string>
 #include <vector>
+
+#include "microlane/prepared.h"
 
 namespace microlane {
 
@@ -60,23 +61,19 @@ struct QuadratureTable {
   const T* operator[](QuadratureRow row) const { return rows + static_cast<std::size_t>(row) * order; }
 };
 
-class QuadratureRule {
+class QuadratureRule : public Prepared {
  public:
   static constexpr std::size_t kMaxOrder = 32;
 
   // order: a whole number, 1 to 32.
   explicit QuadratureRule(double order);
 
-  bool ok() const { return error_.empty(); }
-  // What is wrong with the order, else empty; then there are no nodes, and what is computed with them is NaN.
-  const std::string& error() const { return error_; }
   std::size_t order() const { return order_; }
   // Of T = float or double; lives as long as the rule.
   template <class T>
   QuadratureTable<T> Table() const;
 
  private:
-  std::string error_;
   std::size_t order_ = 0;
   double beckmann_radius_ = 0, beckmann_visible_ = 0;
   std::vector<double> doubles_;

@@ -240,8 +240,8 @@ HWY_INLINE V MaskingDenominator(V zi, V mu_i, V zo, V mu_o) {
 }
 template <JointMasking kG>
 constexpr double kMaskingFactor = kG == JointMasking::kHeightCorrelated ? 2.0  // NOLINT
-                                  : kG == JointMasking::kSeparable      ? 4.0
-                                                                        : 1.0;
+                                  : kG == JointMasking::kVCavity        ? 1.0
+                                                                        : 4.0;
 
 // What facets are: an interface between dielectrics, or what opaque surfaces have (rough_reflector-inl.h).
 // q0 and q1 are its parameters.
@@ -280,6 +280,8 @@ HWY_INLINE void RoughSurfacePass(D d, hn::Mask<D> radiance, Vec<D>& value, Vec<D
   constexpr bool kReflects = kLobes != Lobes::kTransmission, kTransmits = kLobes != Lobes::kReflection;
   constexpr bool kOfVisible = kPdf && kDrawn != Drawn::kNormals, kVCavity = kG == JointMasking::kVCavity;
   static_assert(!kVCavity || (kLobes == Lobes::kReflection && kValue), "a joint masking of reflection");
+  constexpr bool kKelemen = kG == JointMasking::kKelemen, kSmith = !kVCavity && !kKelemen;
+  static_assert(!kKelemen || (kLobes == Lobes::kReflection && kDrawn == Drawn::kNormals), "P_H F/(h.h)");
   static_assert(kVCavity || kDrawn != Drawn::kVCavity, "their densities come with their values");
   constexpr bool kWide = !kIsFloat<D>, kFast = A == Accuracy::kFast;
   constexpr bool kNeedsFresnel = !Interface::kReflectsAll && (kValue || kLobes == Lobes::kBoth);
@@ -427,7 +429,8 @@ HWY_INLINE void RoughSurfacePass(D d, hn::Mask<D> radiance, Vec<D>& value, Vec<D
 
   // masking: G/|i.n| |o.n| = kMaskingFactor zo / masking. visible: G1(i)/|i.n| = 2 / visible, or more of the
   // share of visible normals that are drawn from. Of V-cavities G/|i.n| = seen/masking and G1(i)/|i.n| =
-  // seen_i/masking.
+  // seen_i/masking. Of Kelemen 2001 Eq. 3, D h.n/|H|^2 = D G/(4 |i.n| |o.n|) with G/|i.n| |o.n| = 4
+  // seen/masking = 4 Hz |o.n|/|H|^3.
   Vec<D> masking = one, visible = one, mu_i = one, seen = zo, seen_i = one;
   if constexpr (kVCavity) {
     const Vec<D> two_hz = hn::Add(hz, hz), product = hn::Mul(ih, oh);
@@ -435,7 +438,11 @@ HWY_INLINE void RoughSurfacePass(D d, hn::Mask<D> radiance, Vec<D>& value, Vec<D
     seen = hn::Min(seen_i, hn::Mul(hn::Mul(two_hz, ih), zo));
     masking = hn::Mul(product, iz);
   }
-  if constexpr ((kValue || kOfVisible) && !kVCavity)
+  if constexpr (kValue && kKelemen) {
+    masking = hn::Mul(h2, SqrtOfPositive<A>(d, h2));
+    seen = kWide ? hn::Mul(hn::Mul(hz, scale), hn::Mul(zo, scale)) : hn::Mul(hz, zo);
+  }
+  if constexpr ((kValue || kOfVisible) && kSmith)
     mu_i = Dist::template Masking<Care::kPlain, A>(d, ix, iy, iz, p...);
   if constexpr (kDrawn == Drawn::kBoundedVisible) {
     Vec<D> factor, over;
@@ -445,7 +452,7 @@ HWY_INLINE void RoughSurfacePass(D d, hn::Mask<D> radiance, Vec<D>& value, Vec<D
     visible = hn::Add(mu_i, iz);
   }
   if constexpr (kOfVisible && !kValue) masking = visible;
-  if constexpr (kValue && !kVCavity) {
+  if constexpr (kValue && kSmith) {
     const Vec<D> mu_o = Dist::template Masking<Care::kPlain, A>(d, ox, oy, zo, p...);
     masking = MaskingDenominator<kG>(iz, mu_i, zo, mu_o);
   }
@@ -694,13 +701,17 @@ HWY_INLINE void SampleRoughSurfacePass(D d, hn::Mask<D> radiance, Vec<D>& ox, Ve
   if constexpr (kVisible) invalid = hn::Or(invalid, hn::Le(iz, zero));
   if constexpr (kLobes == Lobes::kTransmission) invalid = hn::Or(invalid, hn::Le(g2, zero));
 
-  // weight = numerator / masking: c G/(|i.n| mz), or G2/G1(i) of visible normals.
+  // weight = numerator / masking: c G/(|i.n| mz), or G2/G1(i) of visible normals, or |o.n|/c of Kelemen 2001.
+  constexpr bool kKelemen = kG == JointMasking::kKelemen;
   Vec<D> numerator, masking, mu_o = one;
-  if constexpr (!kVCavity) mu_o = Dist::template Masking<Care::kPlain, A>(d, ox, oy, zo, p...);
+  if constexpr (!kVCavity && !kKelemen) mu_o = Dist::template Masking<Care::kPlain, A>(d, ox, oy, zo, p...);
   if constexpr (kVCavity) {
     const Vec<D> two_mz = hn::Add(mz, mz);
     masking = hn::Min(c, hn::Mul(two_mz, iz));
     numerator = hn::Min(masking, hn::Mul(two_mz, zo));
+  } else if constexpr (kKelemen) {
+    masking = c;
+    numerator = zo;
   } else if constexpr (kVisible && kG == JointMasking::kSeparable) {
     numerator = hn::Add(zo, zo);
     masking = hn::Add(zo, mu_o);

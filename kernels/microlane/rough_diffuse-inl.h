@@ -24,33 +24,6 @@ namespace microlane {
 namespace HWY_NAMESPACE {
 namespace {
 
-// The double lanes of half a vector of floats, or doubles as they are.
-#if HWY_TARGET == HWY_SCALAR  // has no halves
-template <class D>
-using HalfInDouble = hn::Rebind<double, D>;
-#else
-template <class D>
-using HalfInDouble = hn::Repartition<double, D>;
-#endif
-
-template <class DD>
-HWY_INLINE Vec<DD> LoadWide(DD dd, const double* from) {
-  return hn::LoadU(dd, from);
-}
-template <class DD>
-HWY_INLINE Vec<DD> LoadWide(DD dd, const float* from) {
-  return hn::PromoteTo(dd, hn::LoadU(hn::Rebind<float, DD>(), from));
-}
-template <class DD>
-HWY_INLINE void StoreNarrow(DD dd, Vec<DD> x, double* to) {
-  hn::StoreU(x, dd, to);
-}
-template <class DD>
-HWY_INLINE void StoreNarrow(DD, Vec<DD> x, float* to) {
-  const hn::Rebind<float, DD> df;
-  hn::StoreU(hn::DemoteTo(df, x), df, to);
-}
-
 // What the nodes of one azimuth have in common, in the numbers of the lanes: its weight, s2 = |(alpha_x e.x,
 // alpha_y e.y)|^2 times a square of the radius, and what the radius makes of the rest.
 enum AzimuthTerm : std::size_t { kAzimuthWeight, kSlope2, kTerm0, kTerm1, kTerm2, kNumAzimuthTerms };

@@ -100,6 +100,18 @@ class RoughReflectorLanes {
   static void SampleVCavity(std::size_t n, const Directions<T>& wi, const T* u1, const T* u2, const T* u3,
                             const Surface& surface, const DielectricSamples<T>& samples,
                             Accuracy accuracy = Accuracy::kStandard);
+
+  // The lobe of Kelemen 2001 Eq. 3, P_H F/(h.h) with P_H = D cos(theta_h) (half_vector_density::Ward over
+  // Beckmann, half_vector_density::Phong over Phong) and h = wi + wo, which has no masking of its own.
+  // Samples are by P_H, of weight F |wo.z|/(wi.m), at most 2. eval_kelemen, eval_pdf_kelemen, sample_kelemen.
+  static void EvalKelemen(std::size_t n, const Directions<T>& wi, const Directions<T>& wo,
+                          const Surface& surface, T* f_cos, Accuracy accuracy = Accuracy::kStandard);
+  static void EvalPdfKelemen(std::size_t n, const Directions<T>& wi, const Directions<T>& wo,
+                             const Surface& surface, T* f_cos, T* pdf,
+                             Accuracy accuracy = Accuracy::kStandard);
+  static void SampleKelemen(std::size_t n, const Directions<T>& wi, const T* u1, const T* u2,
+                            const Surface& surface, const DielectricSamples<T>& samples,
+                            Accuracy accuracy = Accuracy::kStandard);
 };
 
 // The same in float and double: T is that of the outputs.
@@ -112,17 +124,23 @@ class RoughReflectorCalls : RoughReflectorLanes<kNormals, kReflector, float>,
  public:
   using Double::Eval;
   using Double::EvalChannels;
+  using Double::EvalKelemen;
   using Double::EvalPdf;
+  using Double::EvalPdfKelemen;
   using Double::EvalPdfVCavity;
   using Double::EvalVCavity;
   using Double::Sample;
+  using Double::SampleKelemen;
   using Double::SampleVCavity;
   using Float::Eval;
   using Float::EvalChannels;
+  using Float::EvalKelemen;
   using Float::EvalPdf;
+  using Float::EvalPdfKelemen;
   using Float::EvalPdfVCavity;
   using Float::EvalVCavity;
   using Float::Sample;
+  using Float::SampleKelemen;
   using Float::SampleVCavity;
 };
 

@@ -35,7 +35,7 @@ struct Outputs {
 template <class D>
 struct Options {
   const hn::Mask<D>& radiance;  // Transport::kRadiance; a reference, as SVE has no members of vector type
-  const QuadratureRule* rule;
+  const Prepared* prepared;     // of kernels with inputs behind the list's second bar
 };
 
 template <class K>
@@ -134,7 +134,7 @@ HWY_INLINE void Loop(D d, const Call<T<D>>& call, std::size_t n, std::index_sequ
   const auto spread_one = [&](std::size_t k) HWY_ATTR { hn::Store(hn::Set(d, call.in[k][0]), d, copy[k]); };
   ((spread[I] ? spread_one(I) : void()), ...);
   const auto radiance = RadianceMask(d, call.transport);
-  const Options<D> options{radiance, call.rule};
+  const Options<D> options{radiance, call.prepared};
   const auto body = [&](std::size_t i, auto... v) HWY_ATTR {
     Vec<D> o0 = hn::Zero(d), o1 = o0, o2 = o0, o3 = o0, o4 = o0, o5 = o0;
     const Outputs<D> outputs{o0, o1, o2, o3, o4, o5};
@@ -211,7 +211,7 @@ void RunHigh(const Call<float>& call, std::size_t n) {
   HWY_ALIGN double out[kOut][kBlock];
   Call<double> wide;
   wide.transport = call.transport;
-  wide.rule = call.rule;
+  wide.prepared = call.prepared;
   for (std::size_t k = 0; k < kIn; ++k) {
     wide.in[k] = in[k];
     wide.uniform[k] = call.uniform[k];

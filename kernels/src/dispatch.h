@@ -56,8 +56,11 @@ inline void Run(const KernelCode& code, Accuracy, const Call<double>& call, std:
 const FamilyFunction* MathTable();
 const FamilyFunction* FresnelTable();
 const FamilyFunction* HalfVectorTable();
+const FamilyFunction* HalfVectorDensityTable();
 const FamilyFunction* MaskingTable();
 const FamilyFunction* RoughnessTable();
+const FamilyFunction* AlbedoLookupTable();
+const FamilyFunction* CoupledTable();
 template <Normals kNormals>
 const FamilyFunction* NormalsTable();
 template <Normals kNormals>

@@ -4,12 +4,13 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <string_view>
 #include <type_traits>
 #include <utility>
 
 #include "microlane/kernel_list.h"
-#include "microlane/quadrature.h"
+#include "microlane/prepared.h"
 #include "src/dispatch.h"
 
 namespace microlane {
@@ -61,11 +62,14 @@ const FamilyFunction* TableOf(std::size_t kernel) {
   }
   const std::string_view id = kKernels[kernel].id;
   const std::string_view family = id.substr(0, id.find('.'));
-  return family == "math"        ? MathTable()
-         : family == "fresnel"   ? FresnelTable()
-         : family == "masking"   ? MaskingTable()
-         : family == "roughness" ? RoughnessTable()
-                                 : HalfVectorTable();
+  return family == "math"                  ? MathTable()
+         : family == "fresnel"             ? FresnelTable()
+         : family == "masking"             ? MaskingTable()
+         : family == "roughness"           ? RoughnessTable()
+         : family == "albedo"              ? AlbedoLookupTable()
+         : family == "coupled"             ? CoupledTable()
+         : family == "half_vector_density" ? HalfVectorDensityTable()
+                                           : HalfVectorTable();
 }
 
 const FamilyFunction* Table(std::size_t kernel) {
@@ -77,53 +81,65 @@ const FamilyFunction* Table(std::size_t kernel) {
   return tables[kernel];
 }
 
+constexpr auto kTakesPrepared = [] {
+  std::array<bool, kNumKernels> takes{};
+  for (std::size_t i = 0; i < kNumKernels; ++i) takes[i] = TakesPrepared(i);
+  return takes;
+}();
+
 template <class T>
 bool SameValue(T a, T b) {
   return a == b || (std::isnan(a) && std::isnan(b));
 }
 
 template <class T>
-void RunWithRule(std::size_t kernel, Accuracy accuracy, const Call<T>& call, std::size_t n) {
-  if (call.rule->ok()) {
+void RunPrepared(std::size_t kernel, Accuracy accuracy, const Call<T>& call, std::size_t n) {
+  if (call.prepared->ok()) {
     Run(CodeOf(Table(kernel), kernel), accuracy, call, n);
-  } else {
-    std::fill_n(call.out[0], n, std::numeric_limits<T>::quiet_NaN());
+    return;
+  }
+  const std::size_t outputs = Split(kKernels[kernel].outputs).count;
+  for (std::size_t k = 0; k < outputs; ++k) {
+    std::fill_n(call.out[k], n, std::numeric_limits<T>::quiet_NaN());
   }
 }
 
-// Lanes of equal order that follow each other, with one rule.
+// Lanes that follow each other, with one object made from what they have in common.
 template <class T>
-void RunByOrder(std::size_t kernel, Accuracy accuracy, const Call<T>& call, std::size_t n) {
+void PrepareAndRun(std::size_t kernel, Accuracy accuracy, const Call<T>& call, std::size_t n) {
   const Names inputs = Split(kKernels[kernel].inputs), outputs = Split(kKernels[kernel].outputs);
-  const T* const orders = call.in[inputs.columns];
-  const bool uniform = call.uniform[inputs.columns];
+  const auto value = [&](std::size_t k, std::size_t lane) { return call.in[k][call.uniform[k] ? 0 : lane]; };
+  const auto alike = [&](std::size_t a, std::size_t b) {
+    for (std::size_t k = inputs.columns; k < inputs.count; ++k) {
+      if (!SameValue(value(k, a), value(k, b))) return false;
+    }
+    return true;
+  };
   for (std::size_t begin = 0, end = 0; begin < n; begin = end) {
-    const T order = orders[uniform ? 0 : begin];
-    for (end = uniform ? n : begin + 1; end < n && SameValue(orders[end], order);) ++end;
-    const QuadratureRule rule(order);
+    for (end = begin + 1; end < n && alike(begin, end);) ++end;
+    double values[kMaxInputs];
+    for (std::size_t k = inputs.columns; k < inputs.count; ++k) {
+      values[k - inputs.columns] = static_cast<double>(value(k, begin));
+    }
+    const std::shared_ptr<const Prepared> prepared = Prepare(kernel, values);
     Call<T> part = call;
-    part.rule = &rule;
+    part.prepared = prepared.get();
     for (std::size_t k = 0; k < inputs.columns; ++k) {
       if (!call.uniform[k]) part.in[k] += begin;
     }
     for (std::size_t k = 0; k < outputs.count; ++k) part.out[k] += begin;
-    RunWithRule(kernel, accuracy, part, end - begin);
+    RunPrepared(kernel, accuracy, part, end - begin);
   }
 }
 
 template <class T>
 void RunOne(std::size_t kernel, Accuracy accuracy, const Call<T>& call, std::size_t n) {
-  static constexpr auto kTakesRule = [] {
-    std::array<bool, kNumKernels> takes{};
-    for (std::size_t k = kFirstDiffuseKernel; k < kNumKernels; ++k) takes[k] = TakesRule(k);
-    return takes;
-  }();
-  if (!kTakesRule[kernel]) {
+  if (!kTakesPrepared[kernel]) {
     Run(CodeOf(Table(kernel), kernel), accuracy, call, n);
-  } else if (call.rule == nullptr) {
-    RunByOrder(kernel, accuracy, call, n);
+  } else if (call.prepared == nullptr) {
+    PrepareAndRun(kernel, accuracy, call, n);
   } else {
-    RunWithRule(kernel, accuracy, call, n);
+    RunPrepared(kernel, accuracy, call, n);
   }
 }
 

@@ -31,10 +31,14 @@ struct MeanFresnelQuantityKernel {
     if constexpr (kQuantity == MeanFresnelQuantity::kCosine) {
       (void)options;
       out.v0 = MeanFresnelCosine<Visible, A>(d, v...);
-    } else if constexpr (Facets::kParameters == 1) {
-      out.v0 = MeanFresnel<Visible, Facets, A>(d, options.rule->template Table<T<D>>(), v..., hn::Zero(d));
     } else {
-      out.v0 = MeanFresnel<Visible, Facets, A>(d, options.rule->template Table<T<D>>(), v...);
+      const QuadratureTable<T<D>> table =
+          static_cast<const QuadratureRule&>(*options.prepared).template Table<T<D>>();
+      if constexpr (Facets::kParameters == 1) {
+        out.v0 = MeanFresnel<Visible, Facets, A>(d, table, v..., hn::Zero(d));
+      } else {
+        out.v0 = MeanFresnel<Visible, Facets, A>(d, table, v...);
+      }
     }
   }
 };

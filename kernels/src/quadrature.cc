@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string>
 
 #include "microlane/kernel_list.h"
 #include "microlane/material.h"
@@ -44,7 +45,7 @@ void LegendreNode(std::size_t count, std::size_t k, double& t, double& weight) {
 
 }  // namespace
 
-QuadratureRule::QuadratureRule(double order) : error_(CheckOrder(order)) {
+QuadratureRule::QuadratureRule(double order) : Prepared(CheckOrder(order)) {
   constexpr std::size_t kRows = static_cast<std::size_t>(QuadratureRow::kNumRows);
   if (!ok()) return;
   order_ = static_cast<std::size_t>(order);

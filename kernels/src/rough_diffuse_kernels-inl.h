@@ -27,7 +27,8 @@ struct RoughDiffuseKernel {
 
   template <Accuracy A, class D, class... V>
   static HWY_INLINE void Eval(D d, const Options<D>& options, const Outputs<D>& out, V... v) {
-    out.v0 = RoughDiffuse<Dist, Radius, kG, A>(d, *options.rule, v...);
+    out.v0 =
+        RoughDiffuse<Dist, Radius, kG, A>(d, static_cast<const QuadratureRule&>(*options.prepared), v...);
   }
 };
 

@@ -73,9 +73,10 @@ void RunReflector(const CallBuilder<T>& call, JointMasking masking, Sampling sam
   }
 }
 
-template <Normals kNormals, Reflector kReflector, DielectricQuantity::What kWhat, class T>
-void RunVCavity(const CallBuilder<T>& call, Accuracy accuracy, std::size_t n) {
-  constexpr std::size_t kQuantity = FindReflectorQuantity(kWhat, DielectricQuantity::kVCavity);
+template <DielectricQuantity::Joint kJoint, Normals kNormals, Reflector kReflector,
+          DielectricQuantity::What kWhat, class T>
+void RunJoint(const CallBuilder<T>& call, Accuracy accuracy, std::size_t n) {
+  constexpr std::size_t kQuantity = FindReflectorQuantity(kWhat, kJoint);
   call.template Run<ReflectorKernel({kNormals, kReflector, kQuantity})>(RoughReflectorTable<kNormals>(),
                                                                         accuracy, n);
 }
@@ -149,7 +150,7 @@ void RoughReflectorLanes<kNormals, kReflector, T>::EvalVCavity(std::size_t n, co
   call.In(wi).In(wo);
   AddSurface(surface, call);
   call.Out(f_cos);
-  RunVCavity<kNormals, kReflector, DielectricQuantity::kEval>(call, accuracy, n);
+  RunJoint<DielectricQuantity::kVCavity, kNormals, kReflector, DielectricQuantity::kEval>(call, accuracy, n);
 }
 
 template <Normals kNormals, Reflector kReflector, class T>
@@ -161,7 +162,8 @@ void RoughReflectorLanes<kNormals, kReflector, T>::EvalPdfVCavity(std::size_t n,
   call.In(wi).In(wo);
   AddSurface(surface, call);
   call.Out(f_cos).Out(pdf);
-  RunVCavity<kNormals, kReflector, DielectricQuantity::kEvalPdf>(call, accuracy, n);
+  RunJoint<DielectricQuantity::kVCavity, kNormals, kReflector, DielectricQuantity::kEvalPdf>(call, accuracy,
+                                                                                             n);
 }
 
 template <Normals kNormals, Reflector kReflector, class T>
@@ -174,7 +176,47 @@ void RoughReflectorLanes<kNormals, kReflector, T>::SampleVCavity(std::size_t n, 
   call.In(wi).In(u1).In(u2).In(u3);
   AddSurface(surface, call);
   call.Out(samples.wo).Out(samples.weight).Out(samples.pdf).Out(samples.lobe);
-  RunVCavity<kNormals, kReflector, DielectricQuantity::kSample>(call, accuracy, n);
+  RunJoint<DielectricQuantity::kVCavity, kNormals, kReflector, DielectricQuantity::kSample>(call, accuracy,
+                                                                                            n);
+}
+
+template <Normals kNormals, Reflector kReflector, class T>
+void RoughReflectorLanes<kNormals, kReflector, T>::EvalKelemen(std::size_t n, const Directions<T>& wi,
+                                                               const Directions<T>& wo,
+                                                               const Surface& surface, T* f_cos,
+                                                               Accuracy accuracy) {
+  CallBuilder<T> call;
+  call.In(wi).In(wo);
+  AddSurface(surface, call);
+  call.Out(f_cos);
+  RunJoint<DielectricQuantity::kKelemen, kNormals, kReflector, DielectricQuantity::kEval>(call, accuracy, n);
+}
+
+template <Normals kNormals, Reflector kReflector, class T>
+void RoughReflectorLanes<kNormals, kReflector, T>::EvalPdfKelemen(std::size_t n, const Directions<T>& wi,
+                                                                  const Directions<T>& wo,
+                                                                  const Surface& surface, T* f_cos, T* pdf,
+                                                                  Accuracy accuracy) {
+  CallBuilder<T> call;
+  call.In(wi).In(wo);
+  AddSurface(surface, call);
+  call.Out(f_cos).Out(pdf);
+  RunJoint<DielectricQuantity::kKelemen, kNormals, kReflector, DielectricQuantity::kEvalPdf>(call, accuracy,
+                                                                                             n);
+}
+
+template <Normals kNormals, Reflector kReflector, class T>
+void RoughReflectorLanes<kNormals, kReflector, T>::SampleKelemen(std::size_t n, const Directions<T>& wi,
+                                                                 const T* u1, const T* u2,
+                                                                 const Surface& surface,
+                                                                 const DielectricSamples<T>& samples,
+                                                                 Accuracy accuracy) {
+  CallBuilder<T> call;
+  call.In(wi).In(u1).In(u2);
+  AddSurface(surface, call);
+  call.Out(samples.wo).Out(samples.weight).Out(samples.pdf).Out(samples.lobe);
+  RunJoint<DielectricQuantity::kKelemen, kNormals, kReflector, DielectricQuantity::kSample>(call, accuracy,
+                                                                                            n);
 }
 
 }  // namespace microlane

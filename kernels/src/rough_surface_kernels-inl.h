@@ -37,10 +37,11 @@ struct RoughSurfaceKernel {
   static constexpr Lobes kLobes = kQuantity.HasBothLobes() ? Lobes::kBoth
                                   : kQuantity.reflects     ? Lobes::kReflection
                                                            : Lobes::kTransmission;
-  static constexpr JointMasking kG = kVCavity ? JointMasking::kVCavity
-                                     : kQuantity.joint == DielectricQuantity::kSeparable
-                                         ? JointMasking::kSeparable
-                                         : JointMasking::kHeightCorrelated;
+  static constexpr JointMasking kG =
+      kVCavity                                            ? JointMasking::kVCavity
+      : kQuantity.joint == DielectricQuantity::kKelemen   ? JointMasking::kKelemen
+      : kQuantity.joint == DielectricQuantity::kSeparable ? JointMasking::kSeparable
+                                                          : JointMasking::kHeightCorrelated;
   // Every input enters a product of the result; but Min and Max drop NaN on SCALAR, EMU128 and Arm.
   static constexpr bool kPassesNan = kDielectric && !Dist::kHasExponent && kValue && !kPdf &&
                                      kLobes != Lobes::kTransmission && HWY_ARCH_X86 &&

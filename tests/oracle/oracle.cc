@@ -2,11 +2,16 @@
 
 #include <array>
 #include <limits>
+#include <memory>
 #include <string_view>
 #include <type_traits>
 #include <utility>
 
+#include "microlane/albedo.h"
+#include "microlane/prepared.h"
+#include "oracle/albedo.h"
 #include "oracle/beckmann.h"
+#include "oracle/coupled.h"
 #include "oracle/fresnel.h"
 #include "oracle/ggx.h"
 #include "oracle/half_vector.h"
@@ -235,6 +240,7 @@ constexpr RoughnessKind ModelRoughness(Normals normals) {
 
 constexpr Masking MaskingOf(const DielectricQuantity& row) {
   return row.joint == DielectricQuantity::kVCavity     ? Masking::kVCavity
+         : row.joint == DielectricQuantity::kKelemen   ? Masking::kKelemen
          : row.joint == DielectricQuantity::kSeparable ? Masking::kSeparable
                                                        : Masking::kCorrelated;
 }
@@ -345,6 +351,39 @@ void OfMeanFresnel(Call& call) {
   }
 }
 
+// The table of a kernel, from the inputs behind the list's second bar; null where they make none.
+template <std::size_t kKernel>
+std::shared_ptr<const AlbedoTable> TableOf(const Real* in) {
+  constexpr Names names = Split(kKernels[kKernel].inputs);
+  double values[kMaxInputs] = {};
+  for (std::size_t k = names.columns; k < names.count; ++k) {
+    values[k - names.columns] = static_cast<double>(in[k]);
+  }
+  auto table = std::static_pointer_cast<const AlbedoTable>(Prepare(kKernel, values));
+  return table->ok() ? table : nullptr;
+}
+
+// A kernel of the coupled model.
+template <std::size_t kKernel>
+void OfCoupled(Call& call) {
+  constexpr Names names = Split(kKernels[kKernel].inputs), outputs = Split(kKernels[kKernel].outputs);
+  const auto table = TableOf<kKernel>(call.in);
+  if (table == nullptr) {
+    for (std::size_t i = 0; i < outputs.count; ++i) call.out[i] = std::numeric_limits<double>::quiet_NaN();
+    return;
+  }
+  const Coupled model{*table, call.in[names.per_lane]};
+  const Vec wi = Direction(call.in);
+  if constexpr (names.name[3] == "u1") {
+    StoreSample(model.Sample(wi, call.in[3], call.in[4], call.in[5], call.lobe_hint), call);
+  } else {
+    const Vec wo = Direction(call.in + 3);
+    for (std::size_t i = 0; i < outputs.count; ++i) {
+      call.out[i] = outputs.name[i] == "pdf" ? model.Pdf(wi, wo) : model.EvalCos(wi, wo);
+    }
+  }
+}
+
 struct Entry {
   std::string_view id;
   Function function;
@@ -424,6 +463,32 @@ constexpr Entry kEntries[] = {
     {"reflect", [](Call& call) { Store(Reflect(Direction(call.in), Direction(call.in + 3)), call.out); }},
     {"refract",
      [](Call& call) { Store(Refract(Direction(call.in), Direction(call.in + 3), call.in[6]), call.out); }},
+
+    {"half_vector_density.ward",
+     [](Call& call) {
+       const Vec m = Direction(call.in);
+       call.out[0] = Beckmann{{call.in[3], call.in[3]}}.D(m) * m.z;
+     }},
+    {"half_vector_density.phong",
+     [](Call& call) {
+       const Vec m = Direction(call.in);
+       call.out[0] = Phong{call.in[3]}.D(m) * m.z;
+     }},
+
+    {"albedo.directional",
+     [](Call& call) {
+       const auto table = TableOf<KernelIndex("albedo.directional")>(call.in);
+       call.out[0] = call.out[1] = std::numeric_limits<double>::quiet_NaN();
+       if (table == nullptr) return;
+       const AlbedoEntries& entries = table->entries();
+       call.out[0] = AlbedoCurve(entries, entries.albedo, call.in[0]);
+       call.out[1] = AlbedoCurve(entries, entries.deficit, call.in[0]);
+     }},
+
+    {"coupled.eval", OfCoupled<KernelIndex("coupled.eval")>},
+    {"coupled.pdf", OfCoupled<KernelIndex("coupled.pdf")>},
+    {"coupled.eval_pdf", OfCoupled<KernelIndex("coupled.eval_pdf")>},
+    {"coupled.sample", OfCoupled<KernelIndex("coupled.sample")>},
 
     {"roughness.from_moments",
      [](Call& call) {

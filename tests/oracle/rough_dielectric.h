@@ -14,7 +14,7 @@
 namespace microlane::oracle {
 
 enum class Transport { kRadiance, kImportance };
-enum class Masking { kCorrelated, kSeparable, kVCavity };
+enum class Masking { kCorrelated, kSeparable, kVCavity, kKelemen };
 
 // Lobes, as the kernel list numbers them; kBoth selects either.
 inline constexpr int kNone = 0, kReflection = 1, kTransmission = 2, kBoth = 3;

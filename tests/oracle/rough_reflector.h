@@ -67,6 +67,10 @@ struct RoughReflector {
   Real EvalCos(const Vec& wi, const Vec& wo) const {
     const Geometry g = MakeGeometry(wi, wo, 1);
     if (g.lobe != kReflection) return 0;
+    if (masking == Masking::kKelemen) {
+      const Real P_H = distribution.D(g.h) * g.h.z;
+      return P_H * facets.Reflectance(g.wi_h) / g.h_length2 * abs(wo.z);  // Kelemen 2001, Eq. 3
+    }
     return facets.Reflectance(g.wi_h) * distribution.D(g.h) * G2(wi, wo, g.h) / (4 * abs(wi.z));
   }
 
@@ -113,10 +117,12 @@ struct RoughReflector {
     sample.wo = wo;
     const Real normal_pdf = v_cavity ? VCavityDensity(distribution, wi, m) : Real(distribution.D(m) * m.z);
     const Real over_pdf = v_cavity ? Real(1 / VCavityG1(wi, m)) : Real(c / (abs(wi.z) * m.z));
-    sample.weight = facets.Reflectance(c) * over_pdf * G2(wi, wo, m);
+    sample.weight = facets.Reflectance(c) *
+                    (masking == Masking::kKelemen ? Real(abs(wo.z) / c) : Real(over_pdf * G2(wi, wo, m)));
     sample.pdf = normal_pdf * ReflectionJacobian(c);
     sample.kappa = (1 + 1 / abs(c)) * (1 + 1 / abs(wo.z));
-    const Real slope = v_cavity ? Real(1 / abs(wo.z)) : MaskingSlope(distribution, wo);
+    const Real slope =
+        v_cavity || masking == Masking::kKelemen ? Real(1 / abs(wo.z)) : MaskingSlope(distribution, wo);
     sample.weight_kappa = (1 + 1 / abs(c)) * facets.Conditioning(c) * (1 + slope);
     return sample;
   }

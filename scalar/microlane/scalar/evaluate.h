@@ -5,12 +5,16 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <string_view>
 #include <type_traits>
 #include <utility>
 
 #include "microlane/kernel_list.h"
+#include "microlane/prepared.h"
+#include "microlane/scalar/albedo.h"
 #include "microlane/scalar/beckmann.h"
+#include "microlane/scalar/coupled.h"
 #include "microlane/scalar/direction.h"
 #include "microlane/scalar/fresnel.h"
 #include "microlane/scalar/ggx.h"
@@ -133,6 +137,7 @@ RoughDielectric<Distribution, Real, masking> MakeDielectric(const Distribution<R
 
 constexpr Masking MaskingOf(const DielectricQuantity& row) {
   return row.joint == DielectricQuantity::kVCavity     ? Masking::kVCavity
+         : row.joint == DielectricQuantity::kKelemen   ? Masking::kKelemen
          : row.joint == DielectricQuantity::kSeparable ? Masking::kSeparable
                                                        : Masking::kHeightCorrelated;
 }
@@ -274,6 +279,56 @@ void RunMeanFresnel(const Real* in, Real* out, Transport) {
   }
 }
 
+// The object that a kernel takes, from the inputs behind the list's second bar; null where they make none.
+template <std::size_t kKernel, class Object, class Real>
+std::shared_ptr<const Object> PreparedOf(const Real* in) {
+  constexpr Names names = Split(kKernels[kKernel].inputs);
+  double values[kMaxInputs] = {};
+  for (std::size_t k = names.columns; k < names.count; ++k) {
+    values[k - names.columns] = static_cast<double>(in[k]);
+  }
+  auto object = std::static_pointer_cast<const Object>(Prepare(kKernel, values));
+  return object->ok() ? object : nullptr;
+}
+
+// Kelemen 2001 Eqs. 4, 5: P_H = D cos.
+template <class Distribution, class Real>
+Real HalfVectorDensity(const Distribution& distribution, const Vec3<Real>& m) {
+  return Saturate<Real>(distribution.DTimes(m, m.z));
+}
+
+template <class Real>
+void RunDirectionalAlbedo(const Real* in, Real* out, Transport) {
+  const auto table = PreparedOf<KernelIndex("albedo.directional"), AlbedoTable>(in);
+  if (IsNan(in[0]) || table == nullptr) {
+    out[0] = out[1] = kNan<Real>;
+    return;
+  }
+  const AlbedoEntries& entries = table->entries();
+  const AlbedoCell cell = FindCell(entries, static_cast<double>(in[0]));
+  out[0] = static_cast<Real>(Interpolate(entries.albedo, cell));
+  out[1] = static_cast<Real>(Interpolate(entries.deficit, cell));
+}
+
+// A kernel of the coupled model.
+template <class Real, std::size_t kKernel>
+void RunCoupled(const Real* in, Real* out, Transport) {
+  constexpr Names names = Split(kKernels[kKernel].inputs), outputs = Split(kKernels[kKernel].outputs);
+  const auto table = PreparedOf<kKernel, AlbedoTable>(in);
+  if (table == nullptr) {
+    for (std::size_t i = 0; i < outputs.count; ++i) out[i] = kNan<Real>;
+    return;
+  }
+  const Coupled<Real> model{*table, in[names.per_lane]};
+  if constexpr (names.name[3] == "u1") {
+    Store(model.Sample(Load(in), in[3], in[4], in[5]), out);
+  } else {
+    const EvalPdf<Real> value = model.EvalAndPdf(Load(in), Load(in + 3));
+    for (std::size_t i = 0; i < outputs.count; ++i)
+      out[i] = outputs.name[i] == "pdf" ? value.pdf : value.f_cos;
+  }
+}
+
 template <class Real>
 struct Entry {
   std::string_view id;
@@ -356,6 +411,21 @@ constexpr auto Entries() {
                                           Transport) { out[0] = ConductorOfCosine(in[0], in[1], in[2]); }},
       Entry<Real>{"fresnel.schlick",
                   [](const Real* in, Real* out, Transport) { out[0] = SchlickOfCosine(in[0], in[1]); }},
+
+      Entry<Real>{"half_vector_density.ward",
+                  [](const Real* in, Real* out, Transport) {
+                    out[0] = HalfVectorDensity(Beckmann<Real>{in[3], in[3]}, Load(in));
+                  }},
+      Entry<Real>{"half_vector_density.phong",
+                  [](const Real* in, Real* out, Transport) {
+                    out[0] = HalfVectorDensity(Phong<Real>{in[3]}, Load(in));
+                  }},
+
+      Entry<Real>{"coupled.eval", RunCoupled<Real, KernelIndex("coupled.eval")>},
+      Entry<Real>{"coupled.pdf", RunCoupled<Real, KernelIndex("coupled.pdf")>},
+      Entry<Real>{"coupled.eval_pdf", RunCoupled<Real, KernelIndex("coupled.eval_pdf")>},
+      Entry<Real>{"coupled.sample", RunCoupled<Real, KernelIndex("coupled.sample")>},
+      Entry<Real>{"albedo.directional", RunDirectionalAlbedo<Real>},
 
       Entry<Real>{"half_vector.reflection",
                   [](const Real* in, Real* out, Transport) {

@@ -133,6 +133,8 @@ struct RoughReflector {
       if constexpr (masking == Masking::kVCavity) {
         const double of_i = std::min(cos_i, 2 * normal.m.z * std::abs(wi.z));
         return std::min(of_i, 2 * normal.m.z * std::abs(Narrow<double>(wo.z))) / of_i;
+      } else if constexpr (masking == Masking::kKelemen) {
+        return std::abs(Narrow<double>(wo.z)) / cos_i;
       } else {
         return SampledWeight<masking>(distribution, wi, sample.wo, cos_i, normal.m);
       }
@@ -164,6 +166,8 @@ struct RoughReflector {
       if constexpr (masking == Masking::kVCavity) {
         const double of_i = std::abs(wi.z) / facet.cos_i, of_o = std::abs(wo.z) / facet.cos_o;
         return std::min(1.0, 2 * facet.cos_h * std::min(of_i, of_o)) / std::abs(wi.z);
+      } else if constexpr (masking == Masking::kKelemen) {
+        return 4 * facet.cos_h * (std::abs(wo.z) / Narrow<double>(facet.length2));
       } else {
         return G2OverCos<masking>(distribution, wi, wo);
       }

@@ -11,6 +11,7 @@ namespace microlane::scalar {
 enum class Masking {
   kHeightCorrelated,  // G2 = 1 / (1 + Lambda_i + Lambda_o), Heitz 2014 Eq. 99
   kSeparable,         // G2 = G1(i) G1(o), Walter 2007 Eq. 23
+  kKelemen,           // G2 = 4 hz |iz| |oz| / |i + o|^2, Kelemen 2001 Eq. 3
   kVCavity,           // G2 = min(1, 2 hz |iz| / i.h, 2 hz |oz| / o.h), Cook and Torrance 1982
 };
 
