@@ -8,6 +8,9 @@
 // A table holds both at nodes, and cells between them are linear in mu. With an offset c = 2^-k, nodes stand
 // at x = c + (1 - c) mu = 2^(j/32 - k), each octave cut into 32 equal cells: as near to each other about
 // grazing as the roughness asks for, and found from the bits of x.
+//
+// Error of what is looked up, against the quadrature: at most 6e-5 for WardLobe, m from 1e-4 to 10 and
+// indices up to 4; beyond them, and with Smith's masking at alpha above 1, up to 7e-4 was found.
 #ifndef MICROLANE_ALBEDO_H_
 #define MICROLANE_ALBEDO_H_
 
