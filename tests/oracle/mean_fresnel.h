@@ -17,7 +17,9 @@ void ForVisible(const Ggx& ggx, const Vec& v, int order, const Node& node) {
     const Real u = (1 - cos(Pi() * of_u.t)) / 2, weight = of_u.weight * sin(Pi() * of_u.t);
     for (int j = 0; j < 2 * order; ++j) {
       const CapNormal normal = VisibleNormal(v, u, (j + Real(0.5)) / (2 * order), ggx.alpha);
-      node(normal.m, weight, CapCancellation(normal, ggx.alpha));
+      // Of M, and of H, whose square is v.M.
+      const Real of_m = CapCancellation(normal, ggx.alpha), of_h = CapCancellation(normal, {1, 1});
+      node(normal.m, weight, of_m > of_h ? of_m : of_h);
     }
   }
 }
@@ -52,13 +54,14 @@ MeanReflectance MeanFresnel(const Distribution& distribution, Vec v, int order, 
   v.z = abs(v.z);
   Real sum = 0, change = 0, total = 0;
   ForVisible(distribution, v, order, [&](const Vec& m, const Real& weight, const Real& direction_kappa) {
-    const Real c = Dot(v, m), e = c * direction_kappa * Real(0x1p-24);
-    sum += weight * F(c);
-    change += weight * abs(F(c + e) - F(c - e));
+    const Real c = Dot(v, m), e = c * direction_kappa * Real(0x1p-21);
+    const Real f = F(c);
+    sum += weight * f;
+    change += weight * (abs(F(c + e) - f) + abs(F(c > e ? Real(c - e) : Real(0)) - f));
     total += weight;
   });
   if (!(sum > 0)) return {0, change > 0 ? Infinity() : Real(1)};
-  return {sum / total, 1 + change / (sum * Real(0x1p-24))};
+  return {sum / total, 1 + change / (sum * Real(0x1p-21))};
 }
 
 inline Real MeanFresnelCosine(const Real& cos_i, const Real& alpha, const double (&k)[7][7]) {
