@@ -170,7 +170,7 @@ void AppendReflectors(std::vector<Row<T>>& rows, std::index_sequence<kPlace...>)
 // The typed function of a kernel of a diffuse surface, with the first lane's order.
 template <class T, std::size_t kKernel>
 void RunDiffuse(Arguments<T>& a) {
-  constexpr DiffuseKernelPlace place = PlaceOfDiffuseKernel(kKernel);
+  constexpr ModelKernelPlace place = PlaceOfDiffuseKernel(kKernel);
   constexpr JointMasking masking = kDiffuseQuantities[place.quantity].joint == DielectricQuantity::kSeparable
                                        ? JointMasking::kSeparable
                                        : JointMasking::kHeightCorrelated;
@@ -188,7 +188,7 @@ void AppendDiffuse(std::vector<Row<T>>& rows, std::index_sequence<kPlace...>) {
 // The typed function of a mean over visible normals, with the first lane's order.
 template <class T, std::size_t kKernel>
 void RunMeanFresnel(Arguments<T>& a) {
-  constexpr MeanFresnelKernelPlace place = PlaceOfMeanFresnelKernel(kKernel);
+  constexpr ModelKernelPlace place = PlaceOfMeanFresnelKernel(kKernel);
   using Calls = MeanFresnelCalls<place.normals>;
   if constexpr (place.quantity == MeanFresnelQuantity::kCosine) {
     Calls::Cosine(a.n, a.Lanes(0), a.Value(1), a.Out(0), a.accuracy);

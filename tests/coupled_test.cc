@@ -1,4 +1,6 @@
 // The coupled specular-matte model of Kelemen 2001 and its specular lobe.
+#include "microlane/coupled.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -170,6 +172,33 @@ TEST(KelemenLobe, PeaksBeyondTheMirrorDirection) {
     last = beyond;
     std::printf("  peak %.2f degrees beyond the mirror direction at %g\n", beyond, degrees);
   }
+}
+
+// The model is Ward's over a dielectric: the table of another lobe would give another model's albedo.
+TEST(Coupled, RefusesTablesOfOtherLobes) {
+  SpecularLobe metal = WardLobe(0.3, 0.2), smith = WardLobe(0.3, 1.5), mirror = smith, ggx = smith;
+  metal.kappa = 3;
+  smith.masking = LobeMasking::kHeightCorrelated;
+  mirror.facets = Reflector::kMirror;
+  ggx.normals = Normals::kGgx;
+  const float x[] = {0, 0.6f}, y[] = {0, 0}, z[] = {1, 0.8f}, u[] = {0.3f, 0.9f};
+  const Directions<float> w{x, y, z};
+  std::size_t outputs = 0;
+  for (const SpecularLobe& lobe : {metal, smith, mirror, ggx, WardLobe(-1, 1.5)}) {
+    const AlbedoTable table(lobe);
+    float out[10][2] = {};
+    coupled::Eval(2, w, w, 1.f, table, out[0]);
+    coupled::Pdf(2, w, w, 1.f, table, out[1]);
+    coupled::EvalPdf(2, w, w, 1.f, table, out[2], out[3]);
+    coupled::Sample<float>(2, w, u, u, u, 1.f, table, {{out[4], out[5], out[6]}, out[7], out[8], out[9]});
+    for (const auto& lanes : out) {
+      for (const float value : lanes) {
+        EXPECT_TRUE(std::isnan(value)) << table.error();
+        ++outputs;
+      }
+    }
+  }
+  std::printf("  %zu outputs of tables of other lobes are NaN\n", outputs);
 }
 
 TEST(Coupled, IsLambertianWithoutAnInterface) {

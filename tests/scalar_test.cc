@@ -201,7 +201,7 @@ constexpr ScalarBound FindBound(std::size_t kernel) {
     return FindModelBound(place.normals, kReflectorQuantities[place.quantity]);
   }
   if (kernel >= kFirstDielectricKernel) {
-    const DielectricKernelPlace place = PlaceOfDielectricKernel(kernel);
+    const ModelKernelPlace place = PlaceOfDielectricKernel(kernel);
     return FindModelBound(place.normals, kDielectricQuantities[place.quantity]);
   }
   const std::string_view id = kKernels[kernel].id;

@@ -2,10 +2,13 @@
 #ifndef MICROLANE_CALL_H_
 #define MICROLANE_CALL_H_
 
+#include <algorithm>
 #include <cstddef>
+#include <limits>
 
 #include "microlane/kernel_list.h"
 #include "microlane/packets.h"
+#include "microlane/prepared.h"
 
 namespace microlane {
 
@@ -39,11 +42,22 @@ class CallBuilder {
     call_.prepared = &prepared;
     return *this;
   }
-  // kKernel: index in the kernel list; code: where RunFrom finds it.
+  // kKernel: index in the kernel list; code: where RunFrom finds it. Of an object that is not ok, all is NaN.
   template <std::size_t kKernel, class Code>
   void Run(const Code& code, Accuracy accuracy, std::size_t n) const {
     static_assert(kKernel < kNumKernels, "the kernel list has no such quantity");
+    if constexpr (TakesPrepared(kKernel)) {
+      if (!call_.prepared->ok()) {
+        FillWithNan(n);
+        return;
+      }
+    }
     RunFrom(code, kKernel, accuracy, call_, n);
+  }
+
+  // NaN into n lanes of every output.
+  void FillWithNan(std::size_t n) const {
+    for (int k = 0; k < outputs_; ++k) std::fill_n(call_.out[k], n, std::numeric_limits<T>::quiet_NaN());
   }
 
  private:

@@ -4,7 +4,7 @@
 //
 // All functions work on n lanes of float or double and are thread-safe. Errors are those that the kernel list
 // declares for the id named with each function, against the formulas with the table's entries; NaN in gives
-// NaN out in that lane. Of a table that is not ok, all is NaN. A table is one of WardLobe.
+// NaN out in that lane. Of a table that is not ok, or not of a WardLobe, all is NaN.
 //
 // Light comes from wi and leaves to wo on the same side of the surface, above or below; 0 otherwise. k, the
 // colour of the matte part, lies in [0, 1]; at 1 nothing is lost.

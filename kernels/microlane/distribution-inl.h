@@ -40,7 +40,8 @@ struct ResultPolicy<Dist, kFloat, std::void_t<typename Dist::template ForResult<
 template <class Dist, bool kFloat>
 using ForResult = typename ResultPolicy<Dist, kFloat>::Type;
 
-// Walter 2007 Eq. 23; Heitz 2014 Eq. 99; of V-cavities min(1, 2 hz |i.n|/i.h, 2 hz |o.n|/o.h).
+// Walter 2007 Eq. 23; Heitz 2014 Eq. 99; of V-cavities min(1, 2 hz |i.n|/i.h, 2 hz |o.n|/o.h); of Kelemen
+// 2001 Eq. 3 what stands for it, 4 |i.n| |o.n| hz/(H.H), H = i + o.
 enum class JointMasking { kSeparable, kHeightCorrelated, kVCavity, kKelemen };
 
 template <class Dist>

@@ -728,17 +728,37 @@ inline constexpr std::size_t kNumMeanFresnelKernels = kNumKernels - kFirstMeanFr
 inline constexpr std::size_t kMaxInputs = 12;
 inline constexpr std::size_t kMaxOutputs = 6;
 
-// A rough dielectric's kernel: its distribution of normals and place in kDielectricQuantities.
-struct DielectricKernelPlace {
+// A model's kernel: its distribution of normals and place in the model's quantities.
+struct ModelKernelPlace {
   Normals normals;
   std::size_t quantity;
 };
-constexpr std::size_t DielectricKernel(Normals normals, std::size_t quantity) {
-  return kFirstDielectricKernels[static_cast<std::size_t>(normals)] + quantity;
+constexpr std::size_t ModelKernel(const FirstKernels& first, Normals normals, std::size_t quantity) {
+  return first[static_cast<std::size_t>(normals)] + quantity;
 }
-constexpr DielectricKernelPlace PlaceOfDielectricKernel(std::size_t kernel) {
-  const std::size_t family = FamilyOf(kernel, kFirstDielectricKernels);
-  return {static_cast<Normals>(family), kernel - kFirstDielectricKernels[family]};
+constexpr ModelKernelPlace PlaceOfModelKernel(const FirstKernels& first, std::size_t kernel) {
+  const std::size_t family = FamilyOf(kernel, first);
+  return {static_cast<Normals>(family), kernel - first[family]};
+}
+
+// By kDielectricQuantities, kDiffuseQuantities and kMeanFresnelQuantities.
+constexpr std::size_t DielectricKernel(Normals normals, std::size_t quantity) {
+  return ModelKernel(kFirstDielectricKernels, normals, quantity);
+}
+constexpr ModelKernelPlace PlaceOfDielectricKernel(std::size_t kernel) {
+  return PlaceOfModelKernel(kFirstDielectricKernels, kernel);
+}
+constexpr std::size_t DiffuseKernel(Normals normals, std::size_t quantity) {
+  return ModelKernel(kFirstDiffuseKernels, normals, quantity);
+}
+constexpr ModelKernelPlace PlaceOfDiffuseKernel(std::size_t kernel) {
+  return PlaceOfModelKernel(kFirstDiffuseKernels, kernel);
+}
+constexpr std::size_t MeanFresnelKernel(Normals normals, std::size_t quantity) {
+  return ModelKernel(kFirstMeanFresnelKernels, normals, quantity);
+}
+constexpr ModelKernelPlace PlaceOfMeanFresnelKernel(std::size_t kernel) {
+  return PlaceOfModelKernel(kFirstMeanFresnelKernels, kernel);
 }
 
 // An opaque surface's kernel: its distribution of normals, reflectance and place in kReflectorQuantities.
@@ -752,36 +772,9 @@ constexpr std::size_t ReflectorKernel(const ReflectorKernelPlace& place) {
          static_cast<std::size_t>(place.reflector) * NumReflectorQuantities(place.normals) + place.quantity;
 }
 constexpr ReflectorKernelPlace PlaceOfReflectorKernel(std::size_t kernel) {
-  const std::size_t family = FamilyOf(kernel, kFirstReflectorKernels);
-  const std::size_t i = kernel - kFirstReflectorKernels[family],
-                    count = NumReflectorQuantities(static_cast<Normals>(family));
-  return {static_cast<Normals>(family), static_cast<Reflector>(i / count), i % count};
-}
-
-// A diffuse surface's kernel: its distribution of normals and place in kDiffuseQuantities.
-struct DiffuseKernelPlace {
-  Normals normals;
-  std::size_t quantity;
-};
-constexpr std::size_t DiffuseKernel(Normals normals, std::size_t quantity) {
-  return kFirstDiffuseKernels[static_cast<std::size_t>(normals)] + quantity;
-}
-constexpr DiffuseKernelPlace PlaceOfDiffuseKernel(std::size_t kernel) {
-  const std::size_t family = FamilyOf(kernel, kFirstDiffuseKernels);
-  return {static_cast<Normals>(family), kernel - kFirstDiffuseKernels[family]};
-}
-
-// A mean over visible normals: its distribution of normals and place in kMeanFresnelQuantities.
-struct MeanFresnelKernelPlace {
-  Normals normals;
-  std::size_t quantity;
-};
-constexpr std::size_t MeanFresnelKernel(Normals normals, std::size_t quantity) {
-  return kFirstMeanFresnelKernels[static_cast<std::size_t>(normals)] + quantity;
-}
-constexpr MeanFresnelKernelPlace PlaceOfMeanFresnelKernel(std::size_t kernel) {
-  const std::size_t family = FamilyOf(kernel, kFirstMeanFresnelKernels);
-  return {static_cast<Normals>(family), kernel - kFirstMeanFresnelKernels[family]};
+  const auto [normals, i] = PlaceOfModelKernel(kFirstReflectorKernels, kernel);
+  const std::size_t count = NumReflectorQuantities(normals);
+  return {normals, static_cast<Reflector>(i / count), i % count};
 }
 
 // A kernel of a distribution of normals: its place in kNormalRows, and its kind of roughness.
@@ -896,7 +889,7 @@ constexpr ModelText MakeModelText(std::string_view id, std::string_view paramete
 constexpr auto MakeDielectricText() {
   std::array<ModelText, kNumDielectricKernels> text{};
   for (std::size_t i = 0; i < text.size(); ++i) {
-    const DielectricKernelPlace place = PlaceOfDielectricKernel(kFirstDielectricKernel + i);
+    const ModelKernelPlace place = PlaceOfDielectricKernel(kFirstDielectricKernel + i);
     text[i] =
         MakeModelText("rough_dielectric", " eta", "", kModelFamilies[static_cast<std::size_t>(place.normals)],
                       kDielectricQuantities[place.quantity]);
@@ -921,7 +914,7 @@ inline constexpr auto kReflectorText = MakeReflectorText();
 constexpr auto MakeDiffuseText() {
   std::array<ModelText, kNumDiffuseKernels> text{};
   for (std::size_t i = 0; i < kNumDiffuseKernels; ++i) {
-    const DiffuseKernelPlace place = PlaceOfDiffuseKernel(kFirstDiffuseKernel + i);
+    const ModelKernelPlace place = PlaceOfDiffuseKernel(kFirstDiffuseKernel + i);
     text[i] = MakeModelText("rough_diffuse", " | order", "",
                             kModelFamilies[static_cast<std::size_t>(place.normals)],
                             kDiffuseQuantities[place.quantity]);
@@ -933,7 +926,7 @@ inline constexpr auto kDiffuseText = MakeDiffuseText();
 constexpr auto MakeMeanFresnelText() {
   std::array<ModelText, kNumMeanFresnelKernels> text{};
   for (std::size_t i = 0; i < kNumMeanFresnelKernels; ++i) {
-    const MeanFresnelKernelPlace place = PlaceOfMeanFresnelKernel(kFirstMeanFresnelKernel + i);
+    const ModelKernelPlace place = PlaceOfMeanFresnelKernel(kFirstMeanFresnelKernel + i);
     const ModelFamily& family = kModelFamilies[static_cast<std::size_t>(place.normals)];
     const MeanFresnelQuantity& q = kMeanFresnelQuantities[place.quantity];
     text[i] = {JoinedText("mean_fresnel", family.suffix, ".", q.name),
@@ -969,7 +962,7 @@ constexpr std::array<Kernel, kNumKernels> MakeKernels() {
                        q.note,         has_transport,      bounds};
   };
   for (std::size_t i = 0; i < kNumDielectricKernels; ++i) {
-    const DielectricKernelPlace place = PlaceOfDielectricKernel(kFirstDielectricKernel + i);
+    const ModelKernelPlace place = PlaceOfDielectricKernel(kFirstDielectricKernel + i);
     const DielectricQuantity& q = kDielectricQuantities[place.quantity];
     add_model(kFirstDielectricKernel + i, kDielectricText[i], q, q.HasValue() && q.transmits,
               kModelFamilies[static_cast<std::size_t>(place.normals)].BoundsOf(q));
@@ -986,12 +979,12 @@ constexpr std::array<Kernel, kNumKernels> MakeKernels() {
                                                         : family.reflector_sample[reflector]);
   }
   for (std::size_t i = 0; i < kNumDiffuseKernels; ++i) {
-    const DiffuseKernelPlace place = PlaceOfDiffuseKernel(kFirstDiffuseKernel + i);
+    const ModelKernelPlace place = PlaceOfDiffuseKernel(kFirstDiffuseKernel + i);
     add_model(kFirstDiffuseKernel + i, kDiffuseText[i], kDiffuseQuantities[place.quantity], false,
               kModelFamilies[static_cast<std::size_t>(place.normals)].diffuse);
   }
   for (std::size_t i = 0; i < kNumMeanFresnelKernels; ++i) {
-    const MeanFresnelKernelPlace place = PlaceOfMeanFresnelKernel(kFirstMeanFresnelKernel + i);
+    const ModelKernelPlace place = PlaceOfMeanFresnelKernel(kFirstMeanFresnelKernel + i);
     const ModelFamily& family = kModelFamilies[static_cast<std::size_t>(place.normals)];
     const bool cosine = place.quantity == MeanFresnelQuantity::kCosine;
     kernels[kFirstMeanFresnelKernel + i] = {kMeanFresnelText[i].id.view(),

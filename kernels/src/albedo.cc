@@ -6,6 +6,7 @@
 #include <string>
 
 #include "microlane/material.h"
+#include "src/legendre.h"
 
 namespace microlane {
 namespace {
@@ -87,21 +88,11 @@ struct Nodes {
   std::array<double, kCount> t, weight;  // of Gauss-Legendre on [0, 1]
 
   Nodes() {
-    constexpr double n = kCount;
-    for (std::size_t k = 0; k < kCount; ++k) {
-      double x = std::cos(kPi * (static_cast<double>(k) + 0.75) / (n + 0.5)), slope = 1;
-      for (int step = 0; step < 8; ++step) {
-        double last = 1, p = x;
-        for (std::size_t j = 1; j < kCount; ++j) {
-          const double i = static_cast<double>(j), next = ((2 * i + 1) * x * p - i * last) / (i + 1);
-          last = p;
-          p = next;
-        }
-        slope = n * (x * p - last) / (x * x - 1);
-        x -= p / slope;
-      }
-      t[k] = (1 - x) / 2;
-      weight[k] = 1 / ((1 - x * x) * slope * slope);
+    for (std::size_t k = 0; k < (kCount + 1) / 2; ++k) {
+      const LegendrePoint point = LegendreNode(kCount, k);
+      t[k] = point.t;
+      t[kCount - 1 - k] = 1 - point.t;
+      weight[k] = weight[kCount - 1 - k] = point.weight;
     }
   }
 };

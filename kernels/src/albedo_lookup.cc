@@ -37,10 +37,6 @@ namespace albedo {
 template <class T>
 void Directional(std::size_t n, const T* cos_i, const AlbedoTable& table, T* albedo, T* deficit,
                  Accuracy accuracy) {
-  if (!table.ok()) {
-    for (T* const output : {albedo, deficit}) std::fill_n(output, n, std::numeric_limits<T>::quiet_NaN());
-    return;
-  }
   CallBuilder<T>()
       .In(cos_i)
       .Out(albedo)

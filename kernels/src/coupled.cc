@@ -60,14 +60,15 @@ const FamilyFunction* CoupledTable() { return HWY_DISPATCH_TABLE(FamilyOnTarget)
 namespace coupled {
 namespace {
 
+// NaN with a table of another lobe than the model's.
 template <std::size_t kKernel, class T>
-void RunWith(const AlbedoTable& table, CallBuilder<T>& call, std::initializer_list<T*> outputs,
-             Accuracy accuracy, std::size_t n) {
-  for (T* const output : outputs) {
-    call.Out(output);
-    if (!table.ok()) std::fill_n(output, n, std::numeric_limits<T>::quiet_NaN());
+void RunWith(const AlbedoTable& table, CallBuilder<T>& call, Accuracy accuracy, std::size_t n) {
+  call.With(table);
+  if (IsWardLobe(table.lobe())) {
+    call.template Run<kKernel>(CoupledTable(), accuracy, n);
+  } else {
+    call.FillWithNan(n);
   }
-  if (table.ok()) call.With(table).template Run<kKernel>(CoupledTable(), accuracy, n);
 }
 
 }  // namespace
@@ -76,24 +77,24 @@ template <class T>
 void Eval(std::size_t n, const DirectionsOf<T>& wi, const DirectionsOf<T>& wo, ParameterOf<T> k,
           const AlbedoTable& table, T* f_cos, Accuracy accuracy) {
   CallBuilder<T> call;
-  call.In(wi).In(wo).In(k);
-  RunWith<KernelIndex("coupled.eval")>(table, call, {f_cos}, accuracy, n);
+  call.In(wi).In(wo).In(k).Out(f_cos);
+  RunWith<KernelIndex("coupled.eval")>(table, call, accuracy, n);
 }
 
 template <class T>
 void Pdf(std::size_t n, const DirectionsOf<T>& wi, const DirectionsOf<T>& wo, ParameterOf<T> k,
          const AlbedoTable& table, T* pdf, Accuracy accuracy) {
   CallBuilder<T> call;
-  call.In(wi).In(wo).In(k);
-  RunWith<KernelIndex("coupled.pdf")>(table, call, {pdf}, accuracy, n);
+  call.In(wi).In(wo).In(k).Out(pdf);
+  RunWith<KernelIndex("coupled.pdf")>(table, call, accuracy, n);
 }
 
 template <class T>
 void EvalPdf(std::size_t n, const DirectionsOf<T>& wi, const DirectionsOf<T>& wo, ParameterOf<T> k,
              const AlbedoTable& table, T* f_cos, T* pdf, Accuracy accuracy) {
   CallBuilder<T> call;
-  call.In(wi).In(wo).In(k);
-  RunWith<KernelIndex("coupled.eval_pdf")>(table, call, {f_cos, pdf}, accuracy, n);
+  call.In(wi).In(wo).In(k).Out(f_cos).Out(pdf);
+  RunWith<KernelIndex("coupled.eval_pdf")>(table, call, accuracy, n);
 }
 
 template <class T>
@@ -101,9 +102,8 @@ void Sample(std::size_t n, const DirectionsOf<T>& wi, const T* u1, const T* u2, 
             const AlbedoTable& table, const DielectricSamples<T>& samples, Accuracy accuracy) {
   CallBuilder<T> call;
   call.In(wi).In(u1).In(u2).In(u3).In(k);
-  RunWith<KernelIndex("coupled.sample")>(
-      table, call, {samples.wo.x, samples.wo.y, samples.wo.z, samples.weight, samples.pdf, samples.lobe},
-      accuracy, n);
+  call.Out(samples.wo).Out(samples.weight).Out(samples.pdf).Out(samples.lobe);
+  RunWith<KernelIndex("coupled.sample")>(table, call, accuracy, n);
 }
 
 #define MICROLANE_INSTANTIATE(T)                                                                          \

@@ -2,9 +2,7 @@
 #ifndef MICROLANE_SRC_MEAN_FRESNEL_CALL_H_
 #define MICROLANE_SRC_MEAN_FRESNEL_CALL_H_
 
-#include <algorithm>
 #include <cstddef>
-#include <limits>
 
 #include "microlane/mean_fresnel.h"
 #include "src/dispatch.h"
@@ -15,10 +13,6 @@ namespace microlane {
 template <Normals kNormals, MeanFresnelQuantity::What kWhat, class T, class... Facets>
 void RunMeanFresnel(std::size_t n, const Directions<T>& v, const RoughnessOf<kNormals, T>& roughness,
                     const QuadratureRule& rule, T* f, Accuracy accuracy, const Facets&... facets) {
-  if (!rule.ok()) {
-    std::fill_n(f, n, std::numeric_limits<T>::quiet_NaN());
-    return;
-  }
   CallBuilder<T> call;
   call.In(v).In(roughness.alpha_x).In(roughness.alpha_y);
   (call.In(facets), ...);

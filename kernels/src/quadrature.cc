@@ -7,6 +7,7 @@
 
 #include "microlane/kernel_list.h"
 #include "microlane/material.h"
+#include "src/legendre.h"
 
 namespace microlane {
 namespace {
@@ -21,26 +22,6 @@ std::string CheckOrder(double order) {
     error = "order = " + std::to_string(order) + " is not a whole number in [1, 32]";
   }
   return error;
-}
-
-// Node t and weight of Gauss-Legendre on [0, 1]; t = y/2 of the k-th root 1 - y of the Legendre polynomial.
-// The recurrence of the differences P_j - P_(j-1) keeps the digits of a small y.
-void LegendreNode(std::size_t count, std::size_t k, double& t, double& weight) {
-  const double n = static_cast<double>(count);
-  const double angle = kPi * (static_cast<double>(k) + 0.75) / (n + 0.5), half_sine = std::sin(angle / 2);
-  double y = 2 * half_sine * half_sine, last = 1;
-  for (int step = 0; step < 6; ++step) {
-    double p = 1, difference = 0;
-    for (std::size_t j = 0; j < count; ++j) {
-      const double i = static_cast<double>(j);
-      last = p;
-      difference = (i * difference - (2 * i + 1) * y * p) / (i + 1);
-      p += difference;
-    }
-    y += p * y * (2 - y) / (n * (last - (1 - y) * p));
-  }
-  t = y / 2;
-  weight = y * (2 - y) / (n * n * last * last);
 }
 
 }  // namespace
@@ -61,8 +42,7 @@ QuadratureRule::QuadratureRule(double order) : Prepared(CheckOrder(order)) {
     doubles_[static_cast<std::size_t>(row) * order_ + i] = value;
   };
   for (std::size_t k = 0; k < (order_ + 1) / 2; ++k) {
-    double below, weight;
-    LegendreNode(order_, k, below, weight);
+    auto [below, weight] = LegendreNode(order_, k);
     const std::size_t mirrored = order_ - 1 - k;
     const bool middle = mirrored == k;
     if (middle) below = 0.5;

@@ -2,9 +2,7 @@
 #ifndef MICROLANE_SRC_ROUGH_DIFFUSE_CALL_H_
 #define MICROLANE_SRC_ROUGH_DIFFUSE_CALL_H_
 
-#include <algorithm>
 #include <cstddef>
-#include <limits>
 
 #include "microlane/rough_diffuse.h"
 #include "src/dispatch.h"
@@ -18,10 +16,6 @@ void RoughDiffuseLanes<kNormals, T>::Eval(std::size_t n, const Directions<T>& wi
                                           JointMasking masking) {
   static_assert(kDiffuseQuantities[0].joint == DielectricQuantity::kCorrelated &&
                 kDiffuseQuantities[1].joint == DielectricQuantity::kSeparable);
-  if (!rule.ok()) {
-    std::fill_n(f_cos, n, std::numeric_limits<T>::quiet_NaN());
-    return;
-  }
   CallBuilder<T> call;
   call.In(wi).In(wo).In(roughness.alpha_x).In(roughness.alpha_y).Out(f_cos).With(rule);
   const FamilyFunction* table = RoughDiffuseTable<kNormals>();

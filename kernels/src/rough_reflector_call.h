@@ -73,9 +73,13 @@ void RunReflector(const CallBuilder<T>& call, JointMasking masking, Sampling sam
   }
 }
 
-template <DielectricQuantity::Joint kJoint, Normals kNormals, Reflector kReflector,
-          DielectricQuantity::What kWhat, class T>
-void RunJoint(const CallBuilder<T>& call, Accuracy accuracy, std::size_t n) {
+// Of a joint masking that has calls of its own; `call` has the lanes that go in.
+template <DielectricQuantity::Joint kJoint, DielectricQuantity::What kWhat, Normals kNormals,
+          Reflector kReflector, class T, class... Out>
+void RunJoint(CallBuilder<T>& call, const OpaqueSurface<kNormals, kReflector, T>& surface, Accuracy accuracy,
+              std::size_t n, const Out&... out) {
+  AddSurface(surface, call);
+  (call.Out(out), ...);
   constexpr std::size_t kQuantity = FindReflectorQuantity(kWhat, kJoint);
   call.template Run<ReflectorKernel({kNormals, kReflector, kQuantity})>(RoughReflectorTable<kNormals>(),
                                                                         accuracy, n);
@@ -146,11 +150,8 @@ void RoughReflectorLanes<kNormals, kReflector, T>::EvalVCavity(std::size_t n, co
                                                                const Directions<T>& wo,
                                                                const Surface& surface, T* f_cos,
                                                                Accuracy accuracy) {
-  CallBuilder<T> call;
-  call.In(wi).In(wo);
-  AddSurface(surface, call);
-  call.Out(f_cos);
-  RunJoint<DielectricQuantity::kVCavity, kNormals, kReflector, DielectricQuantity::kEval>(call, accuracy, n);
+  RunJoint<DielectricQuantity::kVCavity, DielectricQuantity::kEval>(CallBuilder<T>().In(wi).In(wo), surface,
+                                                                    accuracy, n, f_cos);
 }
 
 template <Normals kNormals, Reflector kReflector, class T>
@@ -158,12 +159,8 @@ void RoughReflectorLanes<kNormals, kReflector, T>::EvalPdfVCavity(std::size_t n,
                                                                   const Directions<T>& wo,
                                                                   const Surface& surface, T* f_cos, T* pdf,
                                                                   Accuracy accuracy) {
-  CallBuilder<T> call;
-  call.In(wi).In(wo);
-  AddSurface(surface, call);
-  call.Out(f_cos).Out(pdf);
-  RunJoint<DielectricQuantity::kVCavity, kNormals, kReflector, DielectricQuantity::kEvalPdf>(call, accuracy,
-                                                                                             n);
+  RunJoint<DielectricQuantity::kVCavity, DielectricQuantity::kEvalPdf>(CallBuilder<T>().In(wi).In(wo),
+                                                                       surface, accuracy, n, f_cos, pdf);
 }
 
 template <Normals kNormals, Reflector kReflector, class T>
@@ -172,12 +169,9 @@ void RoughReflectorLanes<kNormals, kReflector, T>::SampleVCavity(std::size_t n, 
                                                                  const Surface& surface,
                                                                  const DielectricSamples<T>& samples,
                                                                  Accuracy accuracy) {
-  CallBuilder<T> call;
-  call.In(wi).In(u1).In(u2).In(u3);
-  AddSurface(surface, call);
-  call.Out(samples.wo).Out(samples.weight).Out(samples.pdf).Out(samples.lobe);
-  RunJoint<DielectricQuantity::kVCavity, kNormals, kReflector, DielectricQuantity::kSample>(call, accuracy,
-                                                                                            n);
+  RunJoint<DielectricQuantity::kVCavity, DielectricQuantity::kSample>(
+      CallBuilder<T>().In(wi).In(u1).In(u2).In(u3), surface, accuracy, n, samples.wo, samples.weight,
+      samples.pdf, samples.lobe);
 }
 
 template <Normals kNormals, Reflector kReflector, class T>
@@ -185,11 +179,8 @@ void RoughReflectorLanes<kNormals, kReflector, T>::EvalKelemen(std::size_t n, co
                                                                const Directions<T>& wo,
                                                                const Surface& surface, T* f_cos,
                                                                Accuracy accuracy) {
-  CallBuilder<T> call;
-  call.In(wi).In(wo);
-  AddSurface(surface, call);
-  call.Out(f_cos);
-  RunJoint<DielectricQuantity::kKelemen, kNormals, kReflector, DielectricQuantity::kEval>(call, accuracy, n);
+  RunJoint<DielectricQuantity::kKelemen, DielectricQuantity::kEval>(CallBuilder<T>().In(wi).In(wo), surface,
+                                                                    accuracy, n, f_cos);
 }
 
 template <Normals kNormals, Reflector kReflector, class T>
@@ -197,12 +188,8 @@ void RoughReflectorLanes<kNormals, kReflector, T>::EvalPdfKelemen(std::size_t n,
                                                                   const Directions<T>& wo,
                                                                   const Surface& surface, T* f_cos, T* pdf,
                                                                   Accuracy accuracy) {
-  CallBuilder<T> call;
-  call.In(wi).In(wo);
-  AddSurface(surface, call);
-  call.Out(f_cos).Out(pdf);
-  RunJoint<DielectricQuantity::kKelemen, kNormals, kReflector, DielectricQuantity::kEvalPdf>(call, accuracy,
-                                                                                             n);
+  RunJoint<DielectricQuantity::kKelemen, DielectricQuantity::kEvalPdf>(CallBuilder<T>().In(wi).In(wo),
+                                                                       surface, accuracy, n, f_cos, pdf);
 }
 
 template <Normals kNormals, Reflector kReflector, class T>
@@ -211,12 +198,9 @@ void RoughReflectorLanes<kNormals, kReflector, T>::SampleKelemen(std::size_t n, 
                                                                  const Surface& surface,
                                                                  const DielectricSamples<T>& samples,
                                                                  Accuracy accuracy) {
-  CallBuilder<T> call;
-  call.In(wi).In(u1).In(u2);
-  AddSurface(surface, call);
-  call.Out(samples.wo).Out(samples.weight).Out(samples.pdf).Out(samples.lobe);
-  RunJoint<DielectricQuantity::kKelemen, kNormals, kReflector, DielectricQuantity::kSample>(call, accuracy,
-                                                                                            n);
+  RunJoint<DielectricQuantity::kKelemen, DielectricQuantity::kSample>(
+      CallBuilder<T>().In(wi).In(u1).In(u2), surface, accuracy, n, samples.wo, samples.weight, samples.pdf,
+      samples.lobe);
 }
 
 }  // namespace microlane

@@ -3,11 +3,16 @@
 #define MICROLANE_TESTS_ORACLE_ALBEDO_H_
 
 #include <cstddef>
+#include <memory>
 
-#include "microlane/albedo.h"
+#include "microlane/albedo_entries.h"
 #include "oracle/real.h"
 
 namespace microlane::oracle {
+
+// The entries that kernel `kernel` of the list looks up, of the values of the inputs behind its second bar;
+// null where they make none. They are part of the question, so whoever asks gives them: tests/tables.cc.
+std::shared_ptr<const AlbedoEntries> GivenEntries(std::size_t kernel, const double* values);
 
 // Node j of a table with cells of 1/32 of an octave above the offset c, as mu = (x - c)/(1 - c).
 inline Real AlbedoNode(const AlbedoEntries& table, std::size_t j) {

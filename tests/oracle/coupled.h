@@ -51,7 +51,8 @@ inline Real MatteCosine(const AlbedoEntries& table, const Real& u) {
 }
 
 struct Coupled {
-  const AlbedoTable& table;
+  const AlbedoEntries& table;
+  Real m, index;  // of Ward's P_H, and of the interface
   Real k;
 
   // f |cos(theta_o)|, Eqs. 3 and 7.
@@ -72,7 +73,7 @@ struct Coupled {
     const Vec v{wi.x, wi.y, abs(wi.z)};
     const auto direction = [&](int of) -> Vec {
       if (of == kReflection) return Reflect(v, Ward().SampleNormal(u1, u2));
-      const Real z = MatteCosine(table.entries(), u1), sine = sqrt((1 - z) * (1 + z));
+      const Real z = MatteCosine(table, u1), sine = sqrt((1 - z) * (1 + z));
       const SinCos azimuth = SinCos2Pi(u2);
       return {sine * azimuth.cos, sine * azimuth.sin, z};
     };
@@ -97,16 +98,14 @@ struct Coupled {
   }
 
  private:
-  Beckmann Ward() const { return {{table.lobe().roughness, table.lobe().roughness}}; }
-  RoughReflector<Beckmann, DielectricFacets> Specular() const {
-    return {Ward(), {table.lobe().n}, Masking::kKelemen};
-  }
-  Real Albedo(const Vec& v) const { return AlbedoCurve(table.entries(), table.entries().albedo, v.z); }
-  Real Deficit(const Vec& v) const { return AlbedoCurve(table.entries(), table.entries().deficit, v.z); }
+  Beckmann Ward() const { return {{m, m}}; }
+  RoughReflector<Beckmann, DielectricFacets> Specular() const { return {Ward(), {index}, Masking::kKelemen}; }
+  Real Albedo(const Vec& v) const { return AlbedoCurve(table, table.albedo, v.z); }
+  Real Deficit(const Vec& v) const { return AlbedoCurve(table, table.deficit, v.z); }
 
   // k s r(theta) r(theta') |cos(theta_o)|; the average of the table's own curve.
   Real Matte(const Vec& wi, const Vec& wo) const {
-    const double total = table.entries().cumulative[0];
+    const double total = table.cumulative[0];
     if (!(wi.z * wo.z > 0) || total == 0) return 0;
     return k * Deficit(wi) * Deficit(wo) * abs(wo.z) / (2 * Pi() * total);
   }

@@ -7,8 +7,6 @@
 #include <type_traits>
 #include <utility>
 
-#include "microlane/albedo.h"
-#include "microlane/prepared.h"
 #include "oracle/albedo.h"
 #include "oracle/beckmann.h"
 #include "oracle/coupled.h"
@@ -317,7 +315,7 @@ void OfReflector(Call& call) {
 // A kernel of a diffuse surface.
 template <std::size_t kKernel>
 void OfDiffuse(Call& call) {
-  constexpr DiffuseKernelPlace place = PlaceOfDiffuseKernel(kKernel);
+  constexpr ModelKernelPlace place = PlaceOfDiffuseKernel(kKernel);
   constexpr Names inputs = Split(kKernels[kKernel].inputs);
   const auto normals = MakeNormals<place.normals, ModelRoughness(place.normals)>(call.in + inputs.per_lane);
   const RoughDiffuse<std::remove_const_t<decltype(normals)>> surface{
@@ -328,7 +326,7 @@ void OfDiffuse(Call& call) {
 // A mean over visible normals.
 template <std::size_t kKernel>
 void OfMeanFresnel(Call& call) {
-  constexpr MeanFresnelKernelPlace place = PlaceOfMeanFresnelKernel(kKernel);
+  constexpr ModelKernelPlace place = PlaceOfMeanFresnelKernel(kKernel);
   if constexpr (place.quantity == MeanFresnelQuantity::kCosine) {
     call.out[0] = MeanFresnelCosine(call.in[0], call.in[1],
                                     place.normals == Normals::kGgx ? kGgxCosineFit : kBeckmannCosineFit);
@@ -353,14 +351,13 @@ void OfMeanFresnel(Call& call) {
 
 // The table of a kernel, from the inputs behind the list's second bar; null where they make none.
 template <std::size_t kKernel>
-std::shared_ptr<const AlbedoTable> TableOf(const Real* in) {
+std::shared_ptr<const AlbedoEntries> TableOf(const Real* in) {
   constexpr Names names = Split(kKernels[kKernel].inputs);
   double values[kMaxInputs] = {};
   for (std::size_t k = names.columns; k < names.count; ++k) {
     values[k - names.columns] = static_cast<double>(in[k]);
   }
-  auto table = std::static_pointer_cast<const AlbedoTable>(Prepare(kKernel, values));
-  return table->ok() ? table : nullptr;
+  return GivenEntries(kKernel, values);
 }
 
 // A kernel of the coupled model.
@@ -372,7 +369,7 @@ void OfCoupled(Call& call) {
     for (std::size_t i = 0; i < outputs.count; ++i) call.out[i] = std::numeric_limits<double>::quiet_NaN();
     return;
   }
-  const Coupled model{*table, call.in[names.per_lane]};
+  const Coupled model{*table, call.in[names.columns], call.in[names.columns + 1], call.in[names.per_lane]};
   const Vec wi = Direction(call.in);
   if constexpr (names.name[3] == "u1") {
     StoreSample(model.Sample(wi, call.in[3], call.in[4], call.in[5], call.lobe_hint), call);
@@ -480,7 +477,7 @@ constexpr Entry kEntries[] = {
        const auto table = TableOf<KernelIndex("albedo.directional")>(call.in);
        call.out[0] = call.out[1] = std::numeric_limits<double>::quiet_NaN();
        if (table == nullptr) return;
-       const AlbedoEntries& entries = table->entries();
+       const AlbedoEntries& entries = *table;
        call.out[0] = AlbedoCurve(entries, entries.albedo, call.in[0]);
        call.out[1] = AlbedoCurve(entries, entries.deficit, call.in[0]);
      }},

@@ -238,7 +238,7 @@ bool IsOrder(Real order) {
 // A kernel of a diffuse surface. NaN where the order is none.
 template <class Real, std::size_t kKernel>
 void RunDiffuse(const Real* in, Real* out, Transport) {
-  constexpr DiffuseKernelPlace place = PlaceOfDiffuseKernel(kKernel);
+  constexpr ModelKernelPlace place = PlaceOfDiffuseKernel(kKernel);
   constexpr Names inputs = Split(kKernels[kKernel].inputs);
   constexpr Masking masking = MaskingOf(kDiffuseQuantities[place.quantity]);
   const Real order = in[inputs.columns];
@@ -253,7 +253,7 @@ void RunDiffuse(const Real* in, Real* out, Transport) {
 // A mean over visible normals. NaN where the order is none.
 template <class Real, std::size_t kKernel>
 void RunMeanFresnel(const Real* in, Real* out, Transport) {
-  constexpr MeanFresnelKernelPlace place = PlaceOfMeanFresnelKernel(kKernel);
+  constexpr ModelKernelPlace place = PlaceOfMeanFresnelKernel(kKernel);
   if constexpr (place.quantity == MeanFresnelQuantity::kCosine) {
     out[0] =
         MeanFresnelCosine(in[0], in[1], place.normals == Normals::kGgx ? kGgxCosineFit : kBeckmannCosineFit);
