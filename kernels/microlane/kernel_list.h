@@ -48,7 +48,8 @@ enum class Metric {
   // alpha_y)/|wo.z|)/(1 + Lambda_i + Lambda_o), at least the sum of |d ln(weight)/d wo.x|, ... d wo.y, ... d
   // wo.z; of separable masking Lambda_o/(1 + Lambda_o) and 1/(1 + Lambda_o) in these; of facets that do not
   // reflect all, plus kDirection's kappa times |dF/d(wi.m)|/F. Judged where the error that kDirection allows
-  // is small beside wo.z, r/(alpha_x + alpha_y), and Schlick's F/|dF/d(wi.m)| or a conductor's |g^2|/|wi.m|.
+  // is small beside wo.z, r/(alpha_x + alpha_y), and Schlick's F/|dF/d(wi.m)| or a conductor's |g^2|/|wi.m|;
+  // other weights of opaque surfaces beside the latter two.
   // Of a mean of F over normals: 1 + the mean of (|F(c + e) - F(c)| + |F(c - e) - F(c)|)/F over 2^-21, for e
   // = 2^-21 c times kDirection's kappa of the normal, of GGX at least that with alphas of 1; c - e at least
   // 0. Of a dielectric about visible normals the first kappa, times that of the normal: of a density that of

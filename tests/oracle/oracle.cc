@@ -226,6 +226,7 @@ void StoreSample(const DirectionSample& sample, Call& call) {
   call.out[5] = sample.lobe;
   call.kappa = sample.kappa;
   call.weight_kappa = sample.weight_kappa;
+  call.weight_curvature = sample.weight_curvature;
   call.direction_kappa = sample.direction_kappa;
   call.margin = sample.margin;
   call.facet_margin = sample.facet_margin;

@@ -54,7 +54,8 @@ struct DirectionSample {
   // Amplification of an input rounding by the geometry; see Metric::kConditioned.
   Real kappa = 1;  // of pdf
   Real weight_kappa = 1;
-  Real direction_kappa = 1;  // of wo
+  double weight_curvature = 0;  // oracle::Result::curvature
+  Real direction_kappa = 1;     // of wo
 };
 
 // G without its sidedness: Heitz 2014, Eq. 99 (correlated) or 98 (separable; Walter 2007, Eq. 23).

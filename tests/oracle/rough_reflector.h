@@ -124,6 +124,7 @@ struct RoughReflector {
     const Real slope =
         v_cavity || masking == Masking::kKelemen ? Real(1 / abs(wo.z)) : MaskingSlope(distribution, wo);
     sample.weight_kappa = (1 + 1 / abs(c)) * facets.Conditioning(c) * (1 + slope);
+    sample.weight_curvature = static_cast<double>(facets.Curvature(c));
     return sample;
   }
 
