@@ -318,6 +318,87 @@ struct BeckmannIsotropic : Beckmann {
   }
 };
 
+// Slopes of unit roughness of Student-T as tables at equal steps of their angle and of u, as renderers keep
+// them of distributions that they cannot invert.
+class StudentSlopes {
+ public:
+  explicit StudentSlopes(float gamma) {
+    // The density along an axis, and across it in units of sqrt(gamma - 1 + t^2), whose angle's cosine to a
+    // power it is.
+    const double k = double{gamma} - 1, n = 2 * double{gamma};
+    double above = 0, area = 0, total = 0;
+    above_[kSteps] = area_[kSteps] = 0;
+    for (int j = kSteps; j-- > 0;) {
+      const double middle = Angle(j + 0.5), step = Angle(1), cosine = std::cos(middle), t = std::tan(middle);
+      const double density = std::pow(1 + t * t / k, 0.5 - double{gamma}) / (cosine * cosine) * step;
+      // Slopes of this part are above all of the others'.
+      area += (above + density / 2) * step / (cosine * cosine);
+      above += density;
+      above_[j] = static_cast<float>(above);
+      area_[j] = static_cast<float>(area);
+      total += std::pow(cosine, n - 2);
+    }
+    for (int j = 0; j <= kSteps; ++j) {
+      above_[j] /= static_cast<float>(2 * above);
+      area_[j] /= static_cast<float>(2 * above);
+    }
+    double reached = 0;
+    int step = 0;
+    for (int j = 0; j < kSteps; ++j) {
+      const double part = std::pow(std::cos(Angle(j + 0.5)), n - 2) / total;
+      for (; step < kSteps && step <= (reached + part) * kSteps; ++step) {
+        across_[step] =
+            static_cast<float>(std::tan(Angle(j + (static_cast<double>(step) / kSteps - reached) / part)));
+      }
+      reached += part;
+    }
+    for (; step <= kSteps; ++step) across_[step] = across_[step - 1];
+  }
+
+  // The slope above which u of those that a view of the slope -a sees are, by halving.
+  float Along(float a, float u) const {
+    const float whole = a + At(area_, std::atan(a));
+    const bool up = u * whole <= area_[0] + a * above_[0];
+    const float side = up ? 1.f : -1.f, wanted = up ? u * whole : (1 - u) * whole - (whole - a);
+    float low = 0, high = up ? kPi / 2 : std::atan(a);
+    for (int i = 0; i < 24; ++i) {
+      const float middle = (low + high) / 2;
+      const float share = side * At(area_, middle) + (a + side * std::tan(middle)) * At(above_, middle);
+      (share >= wanted ? low : high) = middle;
+    }
+    return side * std::tan(low);
+  }
+  float Across(float u) const {
+    const float x = std::abs(2 * u - 1) * kSteps;
+    const int j = std::min(static_cast<int>(x), kSteps - 1);
+    const float part = x - static_cast<float>(j), s = (1 - part) * across_[j] + part * across_[j + 1];
+    return u < 0.5f ? -s : s;
+  }
+
+ private:
+  static constexpr int kSteps = 2048;
+  static double Angle(double steps) { return steps * 1.5707963267948966 / kSteps; }
+  static float At(const float* table, float angle) {
+    const float x = angle * (2 / kPi) * kSteps;
+    const int j = std::min(static_cast<int>(x), kSteps - 1);
+    const float part = x - static_cast<float>(j);
+    return (1 - part) * table[j] + part * table[j + 1];
+  }
+
+  float above_[kSteps + 1], area_[kSteps + 1], across_[kSteps + 1];
+};
+
+const StudentSlopes& SlopesOf(float gamma) {
+  thread_local std::map<float, StudentSlopes> all;
+  thread_local float last = -1;
+  thread_local const StudentSlopes* slopes = nullptr;
+  if (last != gamma) {
+    last = gamma;
+    slopes = &all.try_emplace(last, gamma).first->second;
+  }
+  return *slopes;
+}
+
 struct StudentT {
   float gamma, alpha_x, alpha_y;
 
@@ -346,6 +427,16 @@ struct StudentT {
     const float tan2_theta = alpha2 * (gamma - 1) * (std::pow(1 - u1, -1 / (gamma - 1)) - 1);
     const float cos_theta = 1 / std::sqrt(1 + tan2_theta);
     return SphericalDirection(std::sqrt(std::max(0.f, 1 - Sqr(cos_theta))), cos_theta, phi);
+  }
+  Vec3 SampleVisibleNormal(const Vec3& w, float u1, float u2) const {
+    const Vec3 view = Normalize(Vec3{alpha_x * w.x, alpha_y * w.y, w.z});
+    const float sin_theta = std::sqrt(Sqr(view.x) + Sqr(view.y));
+    const float cos_phi = sin_theta > 0 ? view.x / sin_theta : 1,
+                sin_phi = sin_theta > 0 ? view.y / sin_theta : 0;
+    const StudentSlopes& slopes = SlopesOf(gamma);
+    const float t = slopes.Along(std::min(view.z / std::max(sin_theta, 1e-9f), 1e6f), u1);
+    const float s = std::sqrt(gamma - 1 + Sqr(t)) * slopes.Across(u2);
+    return Normalize(Vec3{alpha_x * (t * cos_phi - s * sin_phi), alpha_y * (t * sin_phi + s * cos_phi), 1});
   }
 };
 
@@ -745,7 +836,18 @@ template <std::size_t kPlace>
 void OfNormals(const float* in, float* out, Transport) {
   constexpr NormalRow row = kNormalRows[kNormalKernelPlaces[kPlace].row];
   constexpr std::size_t parameters = Split(kNormalQuantities[row.what].lanes).count;
-  const auto normals = MakeNormals<row.normals, kNormalKernelPlaces[kPlace].roughness>(in + parameters);
+  const auto normals = [&] {
+    constexpr RoughnessKind roughness = kNormalKernelPlaces[kPlace].roughness;
+    if constexpr (row.normals == Normals::kTabulated) {
+      // By the function that the table is made of, whose parameter comes last.
+      constexpr std::size_t count = Split(kNormalText[kPlace].inputs.view()).columns;
+      float own_first[kMaxInputs] = {in[count]};
+      std::copy(in + parameters, in + count, own_first + 1);
+      return MakeNormals<Normals::kStudentT, roughness>(own_first);
+    } else {
+      return MakeNormals<row.normals, roughness>(in + parameters);
+    }
+  }();
   if constexpr (row.what == NormalQuantity::kD) {
     out[0] = normals.D(Load(in));
   } else if constexpr (row.what == NormalQuantity::kLambda) {

@@ -26,7 +26,8 @@ class Lanes {
     const std::string_view inputs = kKernels[kernel].inputs;
     beckmann_ = Contains(id, "beckmann");
     isotropic_ = Contains(inputs, "exponent") || Contains(id, "isotropic");
-    student_ = Contains(id, "student_t");
+    student_ = Contains(id, "student_t") || Contains(id, "tabulated");
+    table_ = Contains(id, "tabulated");
     reflects_ = !Contains(id, "transmission") && !Contains(id, "refract");
     transmits_ = !Contains(id, "reflect") && kernel < kFirstReflectorKernel;
     if (isotropic_) alpha_y_ = alpha_x_;
@@ -38,7 +39,7 @@ class Lanes {
     if (Uniform() < 0.5) eta_ = 1 / eta_;
     alpha_x_ = std::pow(0.01, Uniform());
     alpha_y_ = isotropic_ ? alpha_x_ : std::pow(0.01, Uniform());
-    if (student_) gamma_ = 1.6 * std::pow(20, Uniform());
+    if (student_ && !table_) gamma_ = 1.6 * std::pow(20, Uniform());
   }
 
   void Next() {
@@ -76,6 +77,7 @@ class Lanes {
                : name == "f0"       ? 0.04
                : name == "x"        ? x_
                : name == "a"        ? a_
+               : name == "tail"     ? gamma_
                : name == "gamma"    ? (student_ ? gamma_ : 1.6 + a_)
                : name == "order"    ? static_cast<double>(kWorkloadOrder)
                : name == "index"    ? kWorkloadIndex
@@ -119,7 +121,7 @@ class Lanes {
     live_ = wo_.z * wi_.z < 0;
   }
 
-  bool beckmann_, isotropic_, student_, reflects_, transmits_;
+  bool beckmann_, isotropic_, student_, table_, reflects_, transmits_;
   std::mt19937_64 random_{20070625};
   std::uniform_real_distribution<double> uniform_{0, 1};
   double eta_ = 1.5, alpha_x_ = 0.3, alpha_y_ = 0.15, gamma_ = 2.5, u1_ = 0, u2_ = 0, u3_ = 0, x_ = 0, a_ = 0;

@@ -217,8 +217,10 @@ void AppendMeanFresnel(std::vector<Row<T>>& rows, std::index_sequence<kPlace...>
 template <Normals kNormals>
 using NormalCallsOf = std::conditional_t<
     kNormals == Normals::kGgx, ggx,
-    std::conditional_t<kNormals == Normals::kBeckmann, beckmann,
-                       std::conditional_t<kNormals == Normals::kStudentT, student_t, phong>>>;
+    std::conditional_t<
+        kNormals == Normals::kBeckmann, beckmann,
+        std::conditional_t<kNormals == Normals::kStudentT, student_t,
+                           std::conditional_t<kNormals == Normals::kTabulated, tabulated, phong>>>>;
 
 // The typed function of a quantity of a distribution with parameters p.
 template <class T, std::size_t kPlace, class... P>
@@ -266,14 +268,23 @@ void AppendNormals(std::vector<Row<T>>& rows, std::index_sequence<kParameter...>
     static constexpr int first =
         static_cast<int>(Split(kNormalQuantities[kNormalRows[place.row].what].lanes).count);
     rows.push_back({kNormalText[kPlace].id.view(), [](Arguments<T>& a) {
-                      CallNormals<T, kPlace>(a, a.Value(first + static_cast<int>(kParameter))...);
+                      if constexpr (kNormalRows[place.row].normals == Normals::kTabulated) {
+                        // Of the first lane's values.
+                        double tail =
+                            static_cast<double>(a.in[first + static_cast<int>(sizeof...(kParameter))][0]);
+                        const auto table = std::static_pointer_cast<const RadialTable>(
+                            Prepare(kNumComponentKernels + kPlace, &tail));
+                        CallNormals<T, kPlace>(a, *table, a.Value(first + static_cast<int>(kParameter))...);
+                      } else {
+                        CallNormals<T, kPlace>(a, a.Value(first + static_cast<int>(kParameter))...);
+                      }
                     }});
   }
 }
 template <class T, std::size_t... kPlace>
 void AppendAllNormals(std::vector<Row<T>>& rows, std::index_sequence<kPlace...>) {
   (AppendNormals<T, kPlace>(rows,
-                            std::make_index_sequence<Split(kNormalText[kPlace].inputs.view()).count -
+                            std::make_index_sequence<Split(kNormalText[kPlace].inputs.view()).columns -
                                                      Split(kNormalText[kPlace].inputs.view()).per_lane>()),
    ...);
 }
@@ -365,6 +376,7 @@ Arguments<T> RandomArguments(const Names& inputs, std::size_t n, bool uniform, s
       if (name == "order") value = 3;
       if (name == "m") value = 0.3;
       if (name == "index") value = 1.7;
+      if (name == "tail") value = 2.5;
       if (name == "exponent") value = std::pow(2e10, unit(random)) - 1;
       if (name.back() == 'x' && name.size() <= 3) value = normal(random);
       if ((name.back() == 'y' || name.back() == 'z') && name.size() <= 3) value = normal(random);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <initializer_list>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -17,6 +18,7 @@
 #include "microlane/kernel_list.h"
 #include "microlane/kernels.h"
 #include "microlane/packets.h"
+#include "microlane/prepared.h"
 #include "microlane/targets.h"
 
 namespace microlane {
@@ -136,6 +138,15 @@ std::vector<Column<T>> RunArguments(std::string_view id, std::size_t n, Mode mod
     }
   }
   for (std::size_t k = 0; k < outputs.size(); ++k) call.out[k] = outputs[k].data();
+  std::shared_ptr<const Prepared> prepared;
+  if (TakesPrepared(kernel)) {
+    double values[kMaxInputs] = {};
+    for (std::size_t k = inputs.columns; k < inputs.count; ++k) {
+      values[k - inputs.columns] = static_cast<double>(arguments[k].value());
+    }
+    prepared = Prepare(kernel, values);
+    call.prepared = prepared.get();
+  }
   if constexpr (std::is_same_v<T, float>) {
     RunKernel(kernel, mode.accuracy, call, n);
   } else {
@@ -176,7 +187,7 @@ double DeclaredError(std::string_view id, Accuracy accuracy = Accuracy::kStandar
 // A distribution of normals with its parameters, as the kernel list names both. Its slopes spread over about
 // scale_x, scale_y.
 struct Distribution {
-  std::string_view family;  // ggx, beckmann, phong, student_t
+  std::string_view family;  // ggx, beckmann, phong, student_t, tabulated (whose gamma comes last)
   std::string_view form;    // "", or "_isotropic" for the kernels of one alpha
   std::vector<double> parameters;
   double scale_x, scale_y;
@@ -196,7 +207,9 @@ struct Distribution {
     const double u = m.x / (m.z * scale_x), w = m.y / (m.z * scale_y), r = std::sqrt(u * u + w * w);
     const double radial = family == "ggx"         ? 4 * r / (1 + r * r)
                           : family == "student_t" ? 2 * parameters[0] * r / (parameters[0] - 1 + r * r)
-                                                  : 2 * r;
+                          : family == "tabulated"
+                              ? 2 * parameters.back() * r / (parameters.back() - 1 + r * r)
+                              : 2 * r;
     return 4 / m.z + radial / (std::min(scale_x, scale_y) * m.z * m.z);
   }
   std::string Text() const {
@@ -230,7 +243,15 @@ inline Distribution Beckmann(float alpha_x, float alpha_y) {
 inline Distribution StudentT(float gamma, float alpha_x, float alpha_y) {
   return {"student_t", "", {gamma, alpha_x, alpha_y}, alpha_x, alpha_y};
 }
+// Of the table that tools make of a gamma.
+inline Distribution Tabulated(float gamma, float alpha_x, float alpha_y) {
+  return {"tabulated", "", {alpha_x, alpha_y, gamma}, alpha_x, alpha_y};
+}
 inline Distribution Isotropic(const Distribution& distribution) {
+  if (distribution.family == "tabulated") {
+    const double alpha = distribution.scale_x;
+    return {distribution.family, "_isotropic", {alpha, distribution.parameters.back()}, alpha, alpha};
+  }
   std::vector<double> parameters(distribution.parameters.begin(), distribution.parameters.end() - 2);
   parameters.push_back(distribution.scale_x);
   return {distribution.family, "_isotropic", parameters, distribution.scale_x, distribution.scale_x};

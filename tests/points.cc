@@ -56,6 +56,7 @@ enum Field : int {
   kK,
   kM,
   kIndex,
+  kTail,
   kNumFields
 };
 constexpr std::string_view kFieldNames[] = {
@@ -63,7 +64,7 @@ constexpr std::string_view kFieldNames[] = {
     "wox",    "woy",      "woz",       "cos_i",     "cos_o",     "alpha",    "alpha_x", "alpha_y", "r_xy",
     "mean_x", "mean_y",   "moment_xx", "moment_yy", "moment_xy", "exponent", "eta",     "n",       "kappa",
     "f0",     "Lambda_i", "Lambda_o",  "u1",        "u2",        "u3",       "x",       "a",       "mu",
-    "gamma",  "order",    "k",         "m",         "index"};
+    "gamma",  "order",    "k",         "m",         "index",     "tail"};
 static_assert(std::size(kFieldNames) == kNumFields && std::size(kInputs) == kNumFields,
               "one field per input");
 
@@ -113,8 +114,8 @@ Shape MakeShape(std::size_t kernel) {
   shape.distribution = shape.has[kExponent] ? Distribution::kPhong
                        : Contains(id, "beckmann") || Contains(id, "ward") || shape.has[kM]
                            ? Distribution::kBeckmann
-                       : Contains(id, "student_t") ? Distribution::kStudentT
-                                                   : Distribution::kGgx;
+                       : Contains(id, "student_t") || shape.has[kTail] ? Distribution::kStudentT
+                                                                       : Distribution::kGgx;
   shape.isotropic = shape.has[kAlpha] || shape.has[kExponent] || shape.has[kM];
   shape.pairs = shape.has[kWox];
   shape.samples = shape.has[kWix] && shape.has[kU1];
@@ -261,6 +262,7 @@ double Doubles(double x, int steps) {
 
 // Materials of few tables: what a table is made from takes these values alone.
 constexpr double kTableM[] = {1e-4, 1e-3, 0.03, 0.1, 0.3, 0.8, 2, 10};
+constexpr double kTableTails[] = {1.55, 1.7, 2, 2.5, 4, 30, 1e3, 1e10};
 constexpr double kTableIndices[] = {1, 1.0003, 1.1, 1.33, 1.5, 1.7, 2.42, 4};
 template <std::size_t kCount>
 double Nearest(const double (&values)[kCount], double x) {
@@ -282,6 +284,7 @@ double Fit(Field field, double x, Values values) {
   if (field == kOrder) x = std::round(x);
   if (field == kM) x = Nearest(kTableM, x);
   if (field == kIndex) x = Nearest(kTableIndices, x);
+  if (field == kTail) x = Nearest(kTableTails, x);
   if (IsCosine(field) && std::abs(x) < kSmallestCosine) {
     return std::copysign(static_cast<double>(static_cast<float>(kSmallestCosine)), x);
   }
@@ -295,7 +298,7 @@ double Fit(Field field, double x, Values values) {
 
 // What the objects that calls take whole are made from.
 struct PreparedValues {
-  double order, m, index;
+  double order, m, index, tail;
 };
 
 class SceneMaker {
@@ -311,6 +314,7 @@ class SceneMaker {
     if (shape_.has[kK])
       scene_[kK] = Fit(kK, random_.Chance(0.2) ? random_.Index(2) : random_.Uniform(), values_);
     scene_[kIndex] = prepared_.index;
+    scene_[kTail] = scene_[kGamma] = prepared_.tail;
     DrawRoughness();
     scene_[kEta] = Fit(kEta, Eta(), values_);
     scene_[kN] = ConductorIndex();
@@ -747,11 +751,13 @@ Scene GridScene(const Shape& shape, Digits& digits) {
   take(kK, kGridK);
   take(kM, kTableM);
   take(kIndex, kTableIndices);
+  take(kTail, kTableTails);
   take(kCosI, kGridCosines);
   take(kCosO, kGridCosines);
   if (shape.has[kX]) scene[kX] = -104 + 192.0 / 4096 * static_cast<double>(digits.Take(4097));
   if (shape.has[kA]) scene[kA] = 0x1p-8 * static_cast<double>(digits.Take(4097));
   take(kGamma, kGridGammas);
+  if (shape.has[kTail]) scene[kGamma] = scene[kTail];
   if (shape.has[kMu]) {
     const std::size_t step = digits.Take(257);
     scene[kMu] = Fit(kMu, step == 0 ? 0 : std::exp2(0.25 * static_cast<double>(step) - 36), Values::kFloats);
@@ -827,6 +833,7 @@ class ExtremeMaker {
     scene[kK] = 0.5;
     scene[kM] = 0.3f;
     scene[kIndex] = 1.7f;
+    scene[kTail] = 2.5;
     return scene;
   }
 
@@ -1323,10 +1330,10 @@ class ExtremeMaker {
 
   // Every gamma from grazing to the normal, where a heavy tail leaves Lambda's bits as a power of mu alone.
   void Student() {
-    if (!shape_.has[kGamma]) return;
+    if (!shape_.has[kGamma] && !shape_.has[kTail]) return;
     Scene scene = Base();
     for (const double gamma : {1.55, 1.7, 2.0, 2.5, 4.0, 30.0, 1e3, 1e6, 1e10}) {
-      scene[kGamma] = static_cast<float>(gamma);
+      scene[kGamma] = scene[kTail] = static_cast<float>(gamma);
       for (const double mu :
            {0.0, 1e-42, 1e-20, 1e-10, 1e-6, 1e-5, 1e-3, 0.1, 1.0, 3.0, 30.0, 1e3, 1e7, 1e12, 1e18, 0x1p60}) {
         scene[kMu] = mu;
@@ -1349,7 +1356,7 @@ class ExtremeMaker {
   void StudentTails() {
     Scene scene = Base();
     for (const double gamma : {1.55, 1.9999, 2.0, 2.0001, 4.0, 50.0, 1e4, 0x1p24, 1e10}) {
-      scene[kGamma] = static_cast<float>(gamma);
+      scene[kGamma] = scene[kTail] = static_cast<float>(gamma);
       for (const double alpha : {1e-5, 0.3, 1.0, 1e2}) {
         SetAlpha(scene, alpha, 0.5 * alpha);
         for (const double cosine : {1.0, 0.5, 1e-3, 1e-7, 0.0, -0.5}) {
@@ -1406,7 +1413,8 @@ PreparedValues PreparedValuesOf(std::uint64_t seed, std::uint64_t index) {
     return static_cast<double>(static_cast<float>(values[random.Index(static_cast<int>(std::size(values)))]));
   };
   const double m = pick(kTableM);
-  return {order, m, pick(kTableIndices)};
+  const double ratio = pick(kTableIndices);
+  return {order, m, ratio, pick(kTableTails)};
 }
 
 }  // namespace

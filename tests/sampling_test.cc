@@ -50,6 +50,7 @@ std::vector<NormalCase> NormalCases() {
     for (const float gamma : {1.55f, 2.0f, 4.0f, 50.0f}) {
       for (const auto& alpha : {std::pair(0.05f, 0.05f), std::pair(0.3f, 0.3f), std::pair(1.0f, 0.1f)}) {
         cases.push_back({StudentT(gamma, alpha.first, alpha.second), 0, accuracy});
+        cases.push_back({Tabulated(gamma, alpha.first, alpha.second), 0, accuracy});
       }
     }
   }
@@ -89,6 +90,22 @@ std::vector<VisibleCase> VisibleCases() {
   return cases;
 }
 
+// Of tables. Not of longer tails, whose normals lie so near the horizon that cells do not resolve them.
+std::vector<VisibleCase> TabulatedVisibleCases() {
+  constexpr float kAlphas[][2] = {{0.01f, 0.01f}, {0.3f, 0.3f}, {2, 2}, {0.01f, 0.1f}, {1, 0.1f}};
+  constexpr double kViews[][2] = {{0, 1}, {30, 1}, {60, 1}, {85, 1}, {70, -1}};
+  std::vector<VisibleCase> cases;
+  for (const float gamma : {2.5f, 4.0f, 50.0f}) {
+    for (const auto& alpha : kAlphas) {
+      for (const auto& view : kViews) {
+        const Accuracy accuracy = cases.size() % 4 == 3 ? Accuracy::kFast : Accuracy::kStandard;
+        cases.push_back({Tabulated(gamma, alpha[0], alpha[1]), view[0], view[1], accuracy, false});
+      }
+    }
+  }
+  return cases;
+}
+
 // The normals that V-cavities show, of every distribution.
 std::vector<VisibleCase> VCavityCases() {
   std::vector<Distribution> distributions;
@@ -100,6 +117,7 @@ std::vector<VisibleCase> VCavityCases() {
   for (const float gamma : {1.55f, 4.0f, 50.0f}) {
     distributions.push_back(StudentT(gamma, 0.3f, 0.3f));
     distributions.push_back(StudentT(gamma, 0.1f, 1));
+    distributions.push_back(Tabulated(gamma, 0.1f, 1));
   }
   // Not beyond: next to v.m = 0 the density rises from 0 within cos(theta_v), which cells do not resolve.
   constexpr double kViews[][2] = {{0, 1}, {30, 1}, {60, 1}, {85, 1}, {70, -1}};
@@ -198,8 +216,8 @@ constexpr CoupledCase kCoupledCases[] = {
 
 // Sidak's correction over all chi-square tests of this file.
 double ChiSquareSignificance() {
-  std::size_t count =
-      std::size(kCoupledCases) + NormalCases().size() + 2 * VisibleCases().size() + VCavityCases().size();
+  std::size_t count = std::size(kCoupledCases) + NormalCases().size() + 2 * VisibleCases().size() +
+                      VCavityCases().size() + TabulatedVisibleCases().size();
   const std::size_t cases = DielectricCases().size();
   for (const DielectricSampler& sampler : kDielectricSamplers) {
     count += (cases + sampler.every - 1) / sampler.every;
@@ -522,7 +540,9 @@ TEST(VisibleNormalSampler, DensityIsThatOfVisibleNormals) {
   constexpr std::size_t kSamples = 100000;
   ChiSquareTally tally("visible normals against D_visible");
   std::uint64_t seed = 1;
-  for (const VisibleCase& c : VisibleCases()) {
+  std::vector<VisibleCase> cases = VisibleCases();
+  for (const VisibleCase& c : TabulatedVisibleCases()) cases.push_back(c);
+  for (const VisibleCase& c : cases) {
     std::mt19937_64 random(seed++);
     const Direction v = c.v();
     const bool unit = c.distribution.family == "beckmann";
@@ -1208,6 +1228,7 @@ TEST(Samplers, EdgesOfTheRandomNumbersGiveUnitVectors) {
     for (const float gamma : {1.55f, 4.0f, 1e10f}) {
       for (const float alpha : {1e-5f, 0.3f, 100.0f}) {
         distributions.push_back(StudentT(gamma, alpha, alpha));
+        distributions.push_back(Tabulated(gamma, alpha, alpha));
       }
     }
     for (const Distribution& distribution : distributions) {
@@ -1236,9 +1257,10 @@ TEST(Samplers, EdgesOfTheRandomNumbersGiveUnitVectors) {
           return distribution.Text() +
                  Text(", %s, vz %g, u %a %a", quantity, vz, double{u1[i]}, double{u2[i]});
         };
-        // Beckmann's density leaves the range of float where a random number next to 0 meets another.
+        // Beckmann's density, and that of tables, leaves the range of float where a random number next to 0
+        // meets another.
         const auto far = [&](std::size_t i) {
-          return family == "beckmann" && std::min(u1[i], u2[i]) < static_cast<T>(0x1p-24);
+          return family != "ggx" && std::min(u1[i], u2[i]) < static_cast<T>(0x1p-24);
         };
         for (const Direction& v : {Direction{0.8 * sine, 0.6 * sine, vz}, Direction{-sine, 0, vz}}) {
           for (const char* quantity : {"sample_visible_normal", "sample_visible_normal_bounded"}) {
@@ -1253,6 +1275,7 @@ TEST(Samplers, EdgesOfTheRandomNumbersGiveUnitVectors) {
             }
           }
           for (const char* quantity : {"sample_visible_reflection", "sample_visible_reflection_bounded"}) {
+            if (family == "tabulated") continue;
             if (family != "ggx" && std::string_view(quantity) != "sample_visible_reflection") continue;
             const std::vector<Column<T>> out =
                 RunAll<T>(distribution.Id(quantity), n, mode, v, u1, u2, distribution);
@@ -1279,7 +1302,7 @@ TEST(Samplers, EdgesOfTheRandomNumbersGiveUnitVectors) {
           }
         }
       }
-      if (family == "student_t") continue;  // no models over it
+      if (family == "student_t" || family == "tabulated") continue;  // no models over it
       for (const float eta : {1.5f, 1 / 1.5f, 1.0f, 1.0003f, 4.0f}) {
         for (const double theta : {0.0, 30.0, 41.8, 60.0, 85.0, 89.99}) {
           for (const double side : {1.0, -1.0}) {

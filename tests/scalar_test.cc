@@ -150,6 +150,34 @@ constexpr ScalarBound kScalarBounds[] = {
     {"student_t.D_visible_v_cavity_isotropic", 0.51, 20},
     {"student_t.sample_visible_normal_v_cavity", 0.51, 64},
     {"student_t.sample_visible_normal_v_cavity_isotropic", 0.51, 64},
+    {"tabulated.D", 0.51, 500},
+    {"tabulated.D_isotropic", 0.51, 500},
+    {"tabulated.D_rotated", 0.51, 2500},
+    {"tabulated.D_off_centre", 0.51, 2500},
+    {"tabulated.Lambda", 0.51, 3000},
+    {"tabulated.Lambda_isotropic", 0.51, 3000},
+    {"tabulated.Lambda_rotated", 0.51, 3000},
+    {"tabulated.Lambda_off_centre", 0.51, 3000},
+    {"tabulated.G1", 0.51, 12},
+    {"tabulated.G1_isotropic", 0.51, 12},
+    {"tabulated.G1_rotated", 0.51, 16},
+    {"tabulated.G1_off_centre", 0.51, 16},
+    {"tabulated.D_visible", 0.51, 500},
+    {"tabulated.D_visible_isotropic", 0.51, 500},
+    {"tabulated.D_visible_rotated", 0.51, 3000},
+    {"tabulated.D_visible_off_centre", 0.51, 3000},
+    {"tabulated.sample_visible_normal", 0.51, 40000},
+    {"tabulated.sample_visible_normal_isotropic", 0.51, 40000},
+    {"tabulated.sample_visible_normal_rotated", 0.51, 40000},
+    {"tabulated.sample_visible_normal_off_centre", 0.51, 400000},
+    {"tabulated.sample_normal", 0.51, 256},
+    {"tabulated.sample_normal_isotropic", 0.51, 256},
+    {"tabulated.sample_normal_rotated", 0.51, 256},
+    {"tabulated.sample_normal_off_centre", 0.51, 256},
+    {"tabulated.D_visible_v_cavity", 0.51, 500},
+    {"tabulated.D_visible_v_cavity_isotropic", 0.51, 500},
+    {"tabulated.sample_visible_normal_v_cavity", 0.51, 256},
+    {"tabulated.sample_visible_normal_v_cavity_isotropic", 0.51, 256},
     {"phong.D_visible_v_cavity", 3, 5},
     {"phong.sample_visible_normal_v_cavity", 0.51, 6},
     {"masking.v_cavity", 0.51, 0.51},
@@ -338,7 +366,7 @@ class Generator {
       scale_x = scale_y = 1;
     } else if (Has("beckmann")) {
       radius = std::sqrt(-std::log(u));
-    } else if (Has("student_t")) {
+    } else if (Has("student_t") || Has("tabulated")) {
       radius = std::sqrt((gamma_ - 1) * std::expm1(-std::log(u) / (gamma_ - 1)));
     } else {
       radius = std::sqrt((1 - u) / u);
@@ -352,6 +380,10 @@ class Generator {
   void DrawParameters() {
     if (std::count(inputs_.name.begin(), inputs_.name.end(), "gamma") > 0) {
       gamma_ = static_cast<float>(Chance(0.1) ? 2 : 1.5 + LogUniform(0.0500001, Chance(0.3) ? 10 : 1e10));
+    }
+    if (Has("tabulated")) {
+      constexpr float kTails[] = {1.55f, 1.7f, 2, 2.5f, 4, 30, 1e3f, 1e10f};
+      gamma_ = kTails[static_cast<int>(8 * Uniform())];
     }
     alpha_x_ = Alpha();
     alpha_y_ = Chance(0.3) ? alpha_x_ : Alpha();
@@ -457,7 +489,7 @@ class Generator {
       return Chance(0.1) ? 0 : LogUniform(Chance(0.2) ? 1e-44 : 1e-4, Chance(0.2) ? 1e38 : 1e4);
     if (name == "u1" || name == "u2" || name == "u3") return Random();
     if (name == "x") return Chance(0.2) ? Sign() * LogUniform(1e-20, 1) : -104 + 192 * Uniform();
-    if (name == "gamma") return gamma_;
+    if (name == "gamma" || name == "tail") return gamma_;
     if (name == "mu") {
       const double a = LogUniform(Chance(0.1) ? 1e-44 : 1e-5, Chance(0.5) ? 10 : 1e4);
       return Chance(0.05) ? 0 : a / std::sqrt(gamma_ - 1);
@@ -619,6 +651,7 @@ TEST_P(ScalarKernel, GivesFiniteNumbersForFiniteInputs) {
       if (names.name[i] == "order") value = std::round(value);
       if (names.name[i] == "m") value = random() % 2 == 0 ? 1e-4f : 0.8f;  // few tables
       if (names.name[i] == "index") value = random() % 2 == 0 ? 4.f : 1.7f;
+      if (names.name[i] == "tail") value = random() % 2 == 0 ? 1.55f : 4.f;
       in[i] = value;
     }
     ExpectFinite<float>(kernel, in);

@@ -28,6 +28,11 @@ class CallBuilder {
     call_.uniform[inputs_] = p.uniform();
     return In(p.data());
   }
+  // The object must outlive the call.
+  CallBuilder& In(const Prepared& prepared) {
+    call_.prepared = &prepared;
+    return *this;
+  }
   CallBuilder& Out(T* lanes) {
     call_.out[outputs_++] = lanes;
     return *this;
@@ -35,11 +40,6 @@ class CallBuilder {
   CallBuilder& Out(const MutableDirections<T>& v) { return Out(v.x).Out(v.y).Out(v.z); }
   CallBuilder& With(Transport transport) {
     call_.transport = transport;
-    return *this;
-  }
-  // The object must outlive the call.
-  CallBuilder& With(const Prepared& prepared) {
-    call_.prepared = &prepared;
     return *this;
   }
   // kKernel: index in the kernel list; code: where RunFrom finds it. Of an object that is not ok, all is NaN.

@@ -7,6 +7,8 @@
 #define MICROLANE_COMPAT_INL_H_
 #endif
 
+#include <type_traits>
+
 #include "hwy/highway.h"
 #include "microlane/packets.h"
 
@@ -99,6 +101,37 @@ HWY_INLINE hn::Vec<DI> ToInteger(DI di, V x) {
   return hn::ConvertTo(di, x);
 }
 
+// What a lane function takes, in double lanes: vectors are widened, pointers to tables stay as they are.
+template <class DD, class V>
+HWY_INLINE auto Widened(DD dd, V in) {
+  if constexpr (std::is_pointer_v<V>) {
+    (void)dd;
+    return in;
+  } else {
+    return hn::PromoteTo(dd, in);
+  }
+}
+#if HWY_TARGET != HWY_SCALAR  // has no halves
+template <class DH, class V>
+HWY_INLINE auto Lower(DH dh, V in) {
+  if constexpr (std::is_pointer_v<V>) {
+    (void)dh;
+    return in;
+  } else {
+    return hn::LowerHalf(dh, in);
+  }
+}
+template <class DH, class V>
+HWY_INLINE auto Upper(DH dh, V in) {
+  if constexpr (std::is_pointer_v<V>) {
+    (void)dh;
+    return in;
+  } else {
+    return hn::UpperHalf(dh, in);
+  }
+}
+#endif
+
 // Runs Op::Run(double tag, double inputs..., double outputs&...) on the double lanes of float vectors, and
 // rounds the outputs once. Double tags run Op on the lanes as they are. Outputs come first.
 template <class Op, class D, class... In>
@@ -110,7 +143,7 @@ HWY_INLINE void InDouble6(D d, Vec<D>& o0, Vec<D>& o1, Vec<D>& o2, Vec<D>& o3, V
 #if HWY_TARGET == HWY_SCALAR  // has no halves
     const hn::Rebind<double, D> dd;
     Vec<decltype(dd)> a0, a1, a2, a3, a4, a5;
-    Op::Run(dd, a0, a1, a2, a3, a4, a5, hn::PromoteTo(dd, in)...);
+    Op::Run(dd, a0, a1, a2, a3, a4, a5, Widened(dd, in)...);
     o0 = hn::DemoteTo(d, a0);
     o1 = hn::DemoteTo(d, a1);
     o2 = hn::DemoteTo(d, a2);
@@ -121,8 +154,8 @@ HWY_INLINE void InDouble6(D d, Vec<D>& o0, Vec<D>& o1, Vec<D>& o2, Vec<D>& o3, V
     const hn::Half<D> dh;
     const hn::Rebind<double, decltype(dh)> dd;
     Vec<decltype(dd)> a0, a1, a2, a3, a4, a5, b0, b1, b2, b3, b4, b5;
-    Op::Run(dd, a0, a1, a2, a3, a4, a5, hn::PromoteTo(dd, hn::LowerHalf(dh, in))...);
-    Op::Run(dd, b0, b1, b2, b3, b4, b5, hn::PromoteTo(dd, hn::UpperHalf(dh, in))...);
+    Op::Run(dd, a0, a1, a2, a3, a4, a5, Widened(dd, Lower(dh, in))...);
+    Op::Run(dd, b0, b1, b2, b3, b4, b5, Widened(dd, Upper(dh, in))...);
     o0 = hn::Combine(d, hn::DemoteTo(dh, b0), hn::DemoteTo(dh, a0));
     o1 = hn::Combine(d, hn::DemoteTo(dh, b1), hn::DemoteTo(dh, a1));
     o2 = hn::Combine(d, hn::DemoteTo(dh, b2), hn::DemoteTo(dh, a2));

@@ -28,12 +28,13 @@ enum class Metric {
   // Component of a unit vector: |got - exact| / ulp(kappa). kappa is 1; of sampled refraction 1 + wi.m / |g|,
   // about visible normals times theirs; of sampled visible normals, and of wo reflected about them, |(alpha_x
   // (|c.x| + |s.x|), alpha_y (|c.y| + |s.y|), c.z + s.z)| over the same of c + s, where c is the point of the
-  // cap and s the stretched view; of Beckmann's |(alpha_x (|e.x| T + |e.y y|), alpha_y (|e.y| T + |e.x y|),
+  // cap and s the stretched view; of Beckmann's and tables' |(alpha_x (|e.x| T + |e.y y|), alpha_y (|e.y| T + |e.x y|),
   // 1)| over the same of (e.x t - e.y y, e.y t + e.x y), where t and y are the slopes at unit roughness, e
   // the stretched view's azimuth, and T = |t| + N/(2 (a + t) exp(-t^2)). With A and B the parts of M (its
   // note) above and below t, A/(2 (a + t) exp(-t^2)) is u1 |dt/du1|, what a rounding of u1 moves t by: N = A.
   // Where it is less, N = B + exp(-t^2): B/(2 (a + t) exp(-t^2)) is what a rounding of 1 - u1 moves t by, and
-  // 1/(2 (a + t)) at least what one of a does, a |dt/da| = (1 - u1 exp(t^2 - a^2))/(2 (a + t)).
+  // 1/(2 (a + t)) at least what one of a does, a |dt/da| = (1 - u1 exp(t^2 - a^2))/(2 (a + t)). Of tables T = 1
+  // + |t|.
   kDirection,
   // |got - exact| / (ulp(exact) * kappa), where kappa >= 1 is the amplification of an input rounding by
   // the geometry: kappa = (1 + 1/|wi.m|) (1 + (wi.m)^2/|g^2|) (1 + 1/|wo.z| + w), g of Walter 2007 Eq. 22,
@@ -41,7 +42,7 @@ enum class Metric {
   // Of opaque surfaces the second factor is 1 of a density and of a mirror's weight, has the complex g of a
   // conductor, and is 1 + |dF/dc|/F of Schlick's.
   // Of the density of a sampled visible normal: kDirection's kappa, or the same with alphas of 1 if that is
-  // more, of Beckmann's plus T/(a + t); so too of the density of wo reflected about it. Of the weight of
+  // more, of Beckmann's and tables' plus T/(a + t); so too of the density of wo reflected about it. Of the weight of
   // that, with r = |(alpha_x wo.x, alpha_y wo.y, wo.z)|: 1 + kDirection's kappa times Lambda_o/(1 + Lambda_i
   // + Lambda_o) (1/|wo.z| + 1/r) + (alpha_x + alpha_y)/(2 |wo.z| (1 + Lambda_i + Lambda_o)), of Beckmann,
   // with s = |(alpha_x wo.x, alpha_y wo.y)|, times exp(-(wo.z/s)^2)/(2 sqrt(pi)) (s/wo.z^2 + (alpha_x +
@@ -126,6 +127,7 @@ inline constexpr Input kInputs[] = {
     {"k", 0, 1, "albedo of the matte part, one channel of its colour"},
     {"m", 1e-4, 10, "root mean square slope of Kelemen 2001, alpha of Beckmann"},
     {"index", 1, 4, "index of a dielectric over that of the outside"},
+    {"tail", 1.55, 1e10, "gamma of the Student-T slopes that a table is made of: any radial function makes one, this one does for tools"},
 };
 
 inline constexpr Output kOutputs[] = {
@@ -297,7 +299,7 @@ inline constexpr Kernel kComponentKernels[] = {
 };
 
 // Distributions of normals, by their places in kNormalFamilies and kModelFamilies.
-enum class Normals { kGgx, kBeckmann, kPhong, kStudentT };
+enum class Normals { kGgx, kBeckmann, kPhong, kStudentT, kTabulated };
 
 // Parameters of a distribution behind those of its own shape, by their places in kRoughnesses. All but the exponent are
 // linear maps of the slopes of one distribution of unit roughness (Heitz 2014 section 5).
@@ -414,6 +416,22 @@ inline constexpr std::string_view kStudentLambdaNote =
     "where the exact value exceeds it (vz = 0). Double lanes round an exponent of up to 745 once.";
 inline constexpr std::string_view kSampleStudentNote =
     "m = normalize(alpha_x r cos(2 pi u2), alpha_y r sin(2 pi u2), 1), 1 + r^2/(gamma - 1) = (1 - u1)^(-1/(gamma - 1)); pdf = D cos.";
+inline constexpr std::string_view kTabulatedNote =
+    "Slopes of a user's density f(r)/(alpha_x alpha_y), r^2 = x^2/alpha_x^2 + y^2/alpha_y^2, as cubics of log f in a table "
+    "(radial_table.h), against which the error bounds are. Of the direction as given; 0 where mz <= 0. Double lanes round an exponent of "
+    "up to 745 once.";
+inline constexpr std::string_view kTabulatedLambdaNote =
+    "Smith's of tabulated.D's slopes, as cubics of log(a Lambda) in a table, against which the error bounds are; the same on both sides "
+    "of the surface; 0 along the normal; the largest finite number where the exact value exceeds it (vz = 0). Double lanes round an "
+    "exponent of up to 745 once.";
+inline constexpr std::string_view kSampleTabulatedNote =
+    "m = normalize(alpha_x r cos(2 pi u2), alpha_y r sin(2 pi u2), 1), log(1 + r^2) by the table's inverse of f's cumulative function at "
+    "u1; pdf = D cos.";
+inline constexpr std::string_view kSampleVisibleTabulatedNote =
+    "m = normalize(alpha_x (t cos - y sin), alpha_y (t sin + y cos), 1) of the azimuth of (alpha_x vx, alpha_y vy): u1 of visible normals "
+    "slope by more than t towards v at unit roughness, t at most 2^200 and mz at least 2^-126, by W(a) = a Lambda(a) of the table and its derivatives, and u2 of "
+    "those by less than y across it, by another, y/sqrt(1 + t^2) at most sinh(60); pdf = D_visible. Below the surface -v in place of v, so "
+    "that mz > 0 on either side; vz = 0 counts as above. 0 where v = 0.";
 inline constexpr std::string_view kPhongNote =
     "(exponent + 2)/(2 pi) mz^exponent of mz as given; 0 where mz <= 0. Double lanes round an exponent of up to 745 once.";
 
@@ -433,10 +451,11 @@ struct NormalRow {
 
 struct NormalFamily {
   std::string_view id;
-  std::string_view own;  // parameters of its shape, which stand before those of its roughness
+  std::string_view own;    // parameters of its shape, which stand before those of its roughness
+  std::string_view table;  // what an object is made of that calls take whole, in place of such
 };
 
-inline constexpr NormalFamily kNormalFamilies[] = {{"ggx", ""}, {"beckmann", ""}, {"phong", ""}, {"student_t", "gamma "}};
+inline constexpr NormalFamily kNormalFamilies[] = {{"ggx", "", ""}, {"beckmann", "", ""}, {"phong", "", ""}, {"student_t", "gamma ", ""}, {"tabulated", "", " | tail"}};
 
 // Columns of bounds: those of kRoughnesses.
 inline constexpr NormalRow kNormalRows[] = {
@@ -484,6 +503,15 @@ inline constexpr NormalRow kNormalRows[] = {
     {Normals::kStudentT, NormalQuantity::kSampleNormal, "sample_normal", "Walter 2007 Eq. 24; d'Eon 2023; Burley 2012, stretched", kSampleStudentNote, {{1, 4, 2400, 8, 32}, {1, 4, 2400, 8, 32}, {1, 1, 1, 1, 40000}, {1, 1, 1, 1, 40000}}},
     {Normals::kStudentT, NormalQuantity::kDVisibleVCavity, "D_visible_v_cavity", "Heitz 2014 Eqs. 16, 49", kDVisibleVCavityNote, {{1, 4, 4000, 8, 5000}, {1, 4, 4000, 8, 5000}}},
     {Normals::kStudentT, NormalQuantity::kSampleVCavity, "sample_visible_normal_v_cavity", "Heitz and d'Eon 2014; Heitz 2014 Eqs. 16, 49", kSampleVCavityNote, {{1, 4, 3000, 8, 32}, {1, 4, 3000, 8, 32}}},
+
+    {Normals::kTabulated, NormalQuantity::kD, "D", "Heitz 2014 Eqs. 65, 73", kTabulatedNote, {{1, 4, 2800, 8, 5000}, {1, 4, 2800, 8, 5000}, {1, 4, 200, 8, 0x1p17}, {1, 4, 200, 8, 0x1p17}}},
+    {Normals::kTabulated, NormalQuantity::kLambda, "Lambda", "Heitz 2014 Eqs. 41-43, 73, 87", kTabulatedLambdaNote, {{1, 1, 1, 1, 6000}, {1, 1, 1, 1, 6000}, {1, 1, 1, 1, 50000}, {1, 1, 1, 1, 50000}}},
+    {Normals::kTabulated, NormalQuantity::kG1, "G1", "Heitz 2014 Eqs. 41-43, 80, 87", kG1Note, {{1, 1, 2600, 1, 24}, {1, 1, 2600, 1, 24}, {1, 1, 2600, 1, 64}, {1, 1, 2600, 1, 64}}},
+    {Normals::kTabulated, NormalQuantity::kDVisible, "D_visible", "Heitz 2014 Eqs. 16, 87", kDVisibleExponentNote, {{1, 4, 4096, 8, 5000}, {1, 4, 4096, 8, 5000}, {1, 4, 2800, 8, 0x1p17}, {1, 4, 2800, 8, 0x1p17}}},
+    {Normals::kTabulated, NormalQuantity::kSampleNormal, "sample_normal", "Walter 2007 Eq. 24; Heitz 2014 Eqs. 65, 73", kSampleTabulatedNote, {{1, 4, 2400, 8, 256}, {1, 4, 2400, 8, 256}, {1, 1, 1, 1, 1000}, {1, 1, 1, 1, 1000}}},
+    {Normals::kTabulated, NormalQuantity::kSampleVisible, "sample_visible_normal", "Heitz 2014 Eqs. 16, 87 by the inverse of its cumulative function", kSampleVisibleTabulatedNote, {{1, 1, 1, 1, 0x1p16}, {1, 1, 1, 1, 0x1p16}, {1, 1, 1, 1, 0x1p19}, {1, 1, 1, 1, 0x1p19}}},
+    {Normals::kTabulated, NormalQuantity::kDVisibleVCavity, "D_visible_v_cavity", "Heitz 2014 Eqs. 16, 49", kDVisibleVCavityNote, {{1, 4, 4000, 8, 5000}, {1, 4, 4000, 8, 5000}}},
+    {Normals::kTabulated, NormalQuantity::kSampleVCavity, "sample_visible_normal_v_cavity", "Heitz and d'Eon 2014; Heitz 2014 Eqs. 16, 49", kSampleVCavityNote, {{1, 4, 3000, 8, 256}, {1, 4, 3000, 8, 256}}},
 };
 
 // Whether sampling of visible normals is among a distribution's quantities.
@@ -649,6 +677,7 @@ inline constexpr ModelFamily kModelFamilies[] = {
      {{1, 6, 2700, 8, 6}, {1, 6, 2700, 8, 6}, {1, 6, 2700, 8, 6}},
      {{1, 16, 2800, 24, 4000}, {1, 16, 2800, 24, 4000}, {1, 16, 2800, 24, 4000}}},
     {"_student_t", "gamma alpha_x alpha_y", "Student-T: d'Eon 2023; Burley 2012"},
+    {"_tabulated", "alpha_x alpha_y", "tabulated slopes: Heitz 2014 Eqs. 65, 73"},
 };
 // clang-format on
 
@@ -866,7 +895,7 @@ constexpr auto MakeNormalText() {
     text[i] = {JoinedText(family.id, ".", row.name, kind.suffix),
                row.what == NormalQuantity::kOwn
                    ? JoinedText(row.own_inputs)
-                   : JoinedText(kNormalQuantities[row.what].lanes, " | ", family.own, kind.parameters)};
+                   : JoinedText(kNormalQuantities[row.what].lanes, " | ", family.own, kind.parameters, family.table)};
   }
   return text;
 }

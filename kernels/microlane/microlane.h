@@ -22,6 +22,7 @@
 #include "microlane/rough_reflector.h"      // IWYU pragma: export
 #include "microlane/roughness.h"            // IWYU pragma: export
 #include "microlane/student_t.h"            // IWYU pragma: export
+#include "microlane/tabulated.h"            // IWYU pragma: export
 #include "microlane/targets.h"              // IWYU pragma: export
 
 #endif  // MICROLANE_MICROLANE_H_

@@ -21,7 +21,8 @@ template <Normals kNormals, class T>
 void RunFrom(const NormalsCode<kNormals>& code, std::size_t kernel, Accuracy accuracy, const Call<T>& call,
              std::size_t n);
 
-// The calls for one kind of roughness in lanes of T; P: Parameter<T>, once for each of its parameters.
+// The calls for one kind of roughness in lanes of T; P: Parameter<T>, once for each of its parameters, or an
+// object that calls take whole.
 template <Normals kNormals, RoughnessKind kRoughness, class T, class... P>
 class NormalLanes {
  public:
@@ -59,8 +60,9 @@ class NormalLanes {
   }
 
   // Normals m with density pdf = DVisible(v, m), in 1/sr, from uniform numbers in [0, 1): of GGX, u1 is the
-  // height on the spherical cap and u2 its azimuth (Dupuy and Benyoub 2023); of Beckmann, u1 is the share of
-  // visible normals that slope more towards v and u2 that of those that slope less across it. m.z > 0
+  // height on the spherical cap and u2 its azimuth (Dupuy and Benyoub 2023); of Beckmann and of
+  // tables, u1 is the share of visible normals that slope more towards v and u2 that of those that slope less
+  // across it. m.z > 0
   // whatever the side of v. With them, the weight of a reflection is F G2/G1, never above 1.
   // sample_visible_normal.
   static void SampleVisibleNormal(std::size_t n, const Directions<T>& v, const T* u1, const T* u2,
@@ -172,7 +174,7 @@ using OffCentreLanes = NormalLanes<kNormals, RoughnessKind::kOffCentre, T, Own..
                                    Parameter<T>, Parameter<T>, Parameter<T>>;
 
 // A distribution of slopes of one shape (Heitz 2014 section 5). Its parameters are Own<T>..., those of the
-// shape, and then one of
+// shape or its table, and then one of
 //   alpha                                    isotropic, _isotropic
 //   alpha_x, alpha_y                         anisotropic, from 1e-5 to 100
 //   alpha_x, alpha_y, r_xy                   rotated: slopes correlate by r_xy, within 0.9999; Eqs. 88-93

@@ -18,6 +18,7 @@ class Prepared {
 
  protected:
   explicit Prepared(std::string error) : error_(std::move(error)) {}
+  void SetError(std::string error) { error_ = std::move(error); }
   ~Prepared() = default;
   Prepared(const Prepared&) = default;
   Prepared& operator=(const Prepared&) = default;

@@ -83,20 +83,6 @@ double ReflectanceScale(const SpecularLobe& lobe) {
 
 // ---- Quadrature ----
 
-template <std::size_t kCount>
-struct Nodes {
-  std::array<double, kCount> t, weight;  // of Gauss-Legendre on [0, 1]
-
-  Nodes() {
-    for (std::size_t k = 0; k < (kCount + 1) / 2; ++k) {
-      const LegendrePoint point = LegendreNode(kCount, k);
-      t[k] = point.t;
-      t[kCount - 1 - k] = 1 - point.t;
-      weight[k] = weight[kCount - 1 - k] = point.weight;
-    }
-  }
-};
-
 // kBefore and kBehind nodes on either side of x = 0, kLine on a line.
 template <std::size_t kBefore, std::size_t kBehind, std::size_t kLine>
 class Integral {
@@ -111,8 +97,8 @@ class Integral {
         cosine_lambda_(lobe.masking == LobeMasking::kKelemen ? 0 : CosineLambda(lobe, mu)) {}
 
   double operator()() const {
-    static const Nodes<kBefore> before;
-    static const Nodes<kBehind> behind;
+    static const LegendreRule<kBefore> before;
+    static const LegendreRule<kBehind> behind;
     double sum = 0;
     // x = -width sinh(v) down to the edge of the disc, where the line's length goes to 0 as a root.
     const double edge = std::min(mu_ / (1 + sine_), reach_), least = std::asinh(edge / width_);
@@ -138,7 +124,7 @@ class Integral {
  private:
   // The facets of slope x: y = width sinh(v) of the line, both signs of y together.
   double Line(double x) const {
-    static const Nodes<kLine> nodes;
+    static const LegendreRule<kLine> nodes;
     const double u = mu_ + sine_ * x;  // wi.m over cos(theta_m)
     const double width = LineWidth(lobe_, width_, x);
     double y = line_reach_ * width;

@@ -41,7 +41,7 @@ void Directional(std::size_t n, const T* cos_i, const AlbedoTable& table, T* alb
       .In(cos_i)
       .Out(albedo)
       .Out(deficit)
-      .With(table)
+      .In(table)
       .template Run<KernelIndex("albedo.directional")>(AlbedoLookupTable(), accuracy, n);
 }
 

@@ -63,7 +63,7 @@ namespace {
 // NaN with a table of another lobe than the model's.
 template <std::size_t kKernel, class T>
 void RunWith(const AlbedoTable& table, CallBuilder<T>& call, Accuracy accuracy, std::size_t n) {
-  call.With(table);
+  call.In(table);
   if (IsWardLobe(table.lobe())) {
     call.template Run<kKernel>(CoupledTable(), accuracy, n);
   } else {

@@ -80,6 +80,8 @@ const FamilyFunction* NormalsTable<Normals::kPhong>();
 template <>
 const FamilyFunction* NormalsTable<Normals::kStudentT>();
 template <>
+const FamilyFunction* NormalsTable<Normals::kTabulated>();
+template <>
 const FamilyFunction* RoughDielectricTable<Normals::kGgx>();
 template <>
 const FamilyFunction* RoughDielectricTable<Normals::kBeckmann>();

@@ -21,11 +21,27 @@ template <class Dist, std::size_t kPlace>
 struct NormalQuantityKernel {
   static constexpr std::string_view kId = kNormalText[kPlace].id.view();
   static constexpr NormalQuantity::What kWhat = kNormalRows[kNormalKernelPlaces[kPlace].row].what;
+  static constexpr bool kTable = TakesPrepared(kNumComponentKernels + kPlace);
 
   template <Accuracy A, class D, class... V>
   static HWY_INLINE void Eval(D d, const Options<D>& options, const Outputs<D>& out, Vec<D> a, Vec<D> b,
                               V... in) {
-    EvalOf<ForResult<Dist, kIsFloat<D>>, A>(d, options, out, a, b, in...);
+    using Policy = ForResult<Dist, kIsFloat<D>>;
+    if constexpr (kTable) {
+      // The table's entries stand before the roughness.
+      constexpr std::size_t kLanes = Split(kNormalQuantities[kWhat].lanes).count - 2;
+      const auto entries = Dist::EntriesOf(*options.prepared);
+      WithFirst<kLanes>(
+          [&](auto... lanes) HWY_ATTR {
+            WithoutFirst<kLanes>(
+                [&](auto... roughness)
+                    HWY_ATTR { EvalOf<Policy, A>(d, options, out, a, b, lanes..., entries, roughness...); },
+                in...);
+          },
+          in...);
+    } else {
+      EvalOf<Policy, A>(d, options, out, a, b, in...);
+    }
   }
 
  private:

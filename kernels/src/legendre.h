@@ -2,6 +2,7 @@
 #ifndef MICROLANE_SRC_LEGENDRE_H_
 #define MICROLANE_SRC_LEGENDRE_H_
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -31,6 +32,20 @@ inline LegendrePoint LegendreNode(std::size_t count, std::size_t k) {
   }
   return {y / 2, y * (2 - y) / (n * n * last * last)};
 }
+
+template <std::size_t kCount>
+struct LegendreRule {
+  std::array<double, kCount> t, weight;  // on [0, 1]
+
+  LegendreRule() {
+    for (std::size_t k = 0; k < (kCount + 1) / 2; ++k) {
+      const LegendrePoint point = LegendreNode(kCount, k);
+      t[k] = point.t;
+      t[kCount - 1 - k] = 1 - point.t;
+      weight[k] = weight[kCount - 1 - k] = point.weight;
+    }
+  }
+};
 
 }  // namespace microlane
 

@@ -16,7 +16,7 @@ void RunMeanFresnel(std::size_t n, const Directions<T>& v, const RoughnessOf<kNo
   CallBuilder<T> call;
   call.In(v).In(roughness.alpha_x).In(roughness.alpha_y);
   (call.In(facets), ...);
-  call.Out(f).With(rule);
+  call.Out(f).In(rule);
   call.template Run<MeanFresnelKernel(kNormals, kWhat)>(MeanFresnelTable<kNormals>(), accuracy, n);
 }
 

@@ -17,7 +17,7 @@ void RoughDiffuseLanes<kNormals, T>::Eval(std::size_t n, const Directions<T>& wi
   static_assert(kDiffuseQuantities[0].joint == DielectricQuantity::kCorrelated &&
                 kDiffuseQuantities[1].joint == DielectricQuantity::kSeparable);
   CallBuilder<T> call;
-  call.In(wi).In(wo).In(roughness.alpha_x).In(roughness.alpha_y).Out(f_cos).With(rule);
+  call.In(wi).In(wo).In(roughness.alpha_x).In(roughness.alpha_y).Out(f_cos).In(rule);
   const FamilyFunction* table = RoughDiffuseTable<kNormals>();
   if (masking == JointMasking::kSeparable) {
     call.template Run<DiffuseKernel(kNormals, 1)>(table, accuracy, n);

@@ -22,6 +22,7 @@
 #include "oracle/roughness.h"
 #include "oracle/student.h"
 #include "oracle/student_t.h"
+#include "oracle/tabulated.h"
 
 namespace microlane::oracle {
 namespace {
@@ -108,10 +109,11 @@ VisibleSample SampleVisible(const Ggx& ggx, const Vec& v, const Real& u1, const 
   return {normal.m, ShareOfVisible<kBounded>(ggx, v), stretched,
           Larger(stretched, CapCancellation(normal, {1, 1}))};
 }
-template <bool kBounded>
-VisibleSample SampleVisible(const Beckmann& beckmann, const Vec& v, const Real& u1, const Real& u2) {
-  const BeckmannNormal normal = VisibleNormal(beckmann, v, u1, u2);
-  const Real stretched = Cancellation(normal.sizes, normal.h, beckmann.alpha);
+// Of Beckmann's and tables' slopes.
+template <bool kBounded, class Distribution>
+VisibleSample SampleVisible(const Distribution& distribution, const Vec& v, const Real& u1, const Real& u2) {
+  const auto normal = VisibleNormal(distribution, v, u1, u2);
+  const Real stretched = Cancellation(normal.sizes, normal.h, distribution.alpha);
   return {normal.m, 1, stretched,
           Larger(stretched, Cancellation(normal.sizes, normal.h, {1, 1})) + normal.end_share};
 }
@@ -185,11 +187,9 @@ void StoreVisibleReflection(const Distribution& distribution, const Facets& face
 }
 
 // A quantity of a distribution by its place in kNormalKernelPlaces.
-template <std::size_t kPlace>
-void OfNormals(Call& call) {
+template <std::size_t kPlace, class Distribution>
+void OfNormals(const Distribution& normals, Call& call) {
   constexpr NormalRow row = kNormalRows[kNormalKernelPlaces[kPlace].row];
-  constexpr std::size_t parameters = Split(kNormalQuantities[row.what].lanes).count;
-  const auto normals = MakeNormals<row.normals, kNormalKernelPlaces[kPlace].roughness>(call.in + parameters);
   if constexpr (row.what == NormalQuantity::kD) {
     call.out[0] = normals.D(Direction(call.in));
   } else if constexpr (row.what == NormalQuantity::kLambda) {
@@ -216,6 +216,35 @@ void OfNormals(Call& call) {
     call.out[0] = pdf == 0 ? pdf : Real(pdf / ShareOfVisible<bounded>(normals, wi));
   } else {
     StoreVisibleNormal<row.what == NormalQuantity::kSampleVisibleBounded>(normals, call);
+  }
+}
+
+// What a kernel's table is made of, the inputs behind the list's second bar.
+template <std::size_t kKernel>
+std::array<double, kMaxInputs> TableValues(const Real* in) {
+  constexpr Names names = Split(kKernels[kKernel].inputs);
+  std::array<double, kMaxInputs> values{};
+  for (std::size_t k = names.columns; k < names.count; ++k) {
+    values[k - names.columns] = static_cast<double>(in[k]);
+  }
+  return values;
+}
+
+template <std::size_t kPlace>
+void OfNormals(Call& call) {
+  constexpr NormalKernelPlace place = kNormalKernelPlaces[kPlace];
+  constexpr NormalRow row = kNormalRows[place.row];
+  constexpr std::size_t kernel = kNumComponentKernels + kPlace,
+                        lanes = Split(kKernels[kernel].inputs).per_lane;
+  if constexpr (row.normals == Normals::kTabulated) {
+    const auto table = GivenRadialEntries(kernel, TableValues<kernel>(call.in).data());
+    if (table == nullptr) {
+      for (std::size_t i = 0; i < kMaxOutputs; ++i) call.out[i] = std::numeric_limits<double>::quiet_NaN();
+      return;
+    }
+    OfNormals<kPlace>(Tabulated{table.get(), MakeRoughness<place.roughness>(call.in + lanes)}, call);
+  } else {
+    OfNormals<kPlace>(MakeNormals<row.normals, place.roughness>(call.in + lanes), call);
   }
 }
 
@@ -353,12 +382,7 @@ void OfMeanFresnel(Call& call) {
 // The table of a kernel, from the inputs behind the list's second bar; null where they make none.
 template <std::size_t kKernel>
 std::shared_ptr<const AlbedoEntries> TableOf(const Real* in) {
-  constexpr Names names = Split(kKernels[kKernel].inputs);
-  double values[kMaxInputs] = {};
-  for (std::size_t k = names.columns; k < names.count; ++k) {
-    values[k - names.columns] = static_cast<double>(in[k]);
-  }
-  return GivenEntries(kKernel, values);
+  return GivenEntries(kKernel, TableValues<kKernel>(in).data());
 }
 
 // A kernel of the coupled model.

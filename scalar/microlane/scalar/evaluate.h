@@ -2,6 +2,7 @@
 #ifndef MICROLANE_SCALAR_EVALUATE_H_
 #define MICROLANE_SCALAR_EVALUATE_H_
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -12,6 +13,7 @@
 
 #include "microlane/kernel_list.h"
 #include "microlane/prepared.h"
+#include "microlane/radial_table.h"
 #include "microlane/scalar/albedo.h"
 #include "microlane/scalar/beckmann.h"
 #include "microlane/scalar/coupled.h"
@@ -30,6 +32,7 @@
 #include "microlane/scalar/sheared.h"
 #include "microlane/scalar/student.h"
 #include "microlane/scalar/student_t.h"
+#include "microlane/scalar/tabulated.h"
 
 namespace microlane::scalar {
 
@@ -57,7 +60,7 @@ void Store(const SampledNormal<double>& normal, Real* out) {
 
 template <RoughnessKind kRoughness, template <class> class Distribution, class Real, class... Own>
 auto MakeRough(const Real* in, Own... own) {
-  using Rough = Sheared<Distribution, Real, sizeof...(own)>;
+  using Rough = Sheared<Distribution, Real, Own...>;
   if constexpr (kRoughness == RoughnessKind::kIsotropic) {
     return Distribution<Real>{own..., in[0], in[0]};
   } else if constexpr (kRoughness == RoughnessKind::kAnisotropic) {
@@ -83,12 +86,22 @@ constexpr RoughnessKind ModelRoughness(Normals normals) {
   return normals == Normals::kPhong ? RoughnessKind::kExponent : RoughnessKind::kAnisotropic;
 }
 
+// The object that a kernel takes, from the inputs behind the list's second bar; null where they make none.
+template <std::size_t kKernel, class Object, class Real>
+std::shared_ptr<const Object> PreparedOf(const Real* in) {
+  constexpr Names names = Split(kKernels[kKernel].inputs);
+  double values[kMaxInputs] = {};
+  for (std::size_t k = names.columns; k < names.count; ++k) {
+    values[k - names.columns] = static_cast<double>(in[k]);
+  }
+  auto object = std::static_pointer_cast<const Object>(Prepare(kKernel, values));
+  return object->ok() ? object : nullptr;
+}
+
 // A quantity of a distribution by its place in kNormalKernelPlaces.
-template <class Real, std::size_t kPlace>
-void RunNormals(const Real* in, Real* out, Transport) {
+template <std::size_t kPlace, class Distribution, class Real>
+void RunNormals(const Distribution& normals, const Real* in, Real* out) {
   constexpr NormalRow row = kNormalRows[kNormalKernelPlaces[kPlace].row];
-  constexpr std::size_t parameters = Split(kNormalQuantities[row.what].lanes).count;
-  const auto normals = MakeNormals<row.normals, kNormalKernelPlaces[kPlace].roughness>(in + parameters);
   if constexpr (row.what == NormalQuantity::kD) {
     out[0] = normals.D(Load(in));
   } else if constexpr (row.what == NormalQuantity::kLambda) {
@@ -118,6 +131,22 @@ void RunNormals(const Real* in, Real* out, Transport) {
   } else {
     constexpr bool bounded = row.what == NormalQuantity::kSampleVisibleBounded;
     Store(normals.SampleVisibleNormal(Load(in), in[3], in[4], bounded), out);
+  }
+}
+template <class Real, std::size_t kPlace>
+void RunNormals(const Real* in, Real* out, Transport) {
+  constexpr NormalKernelPlace place = kNormalKernelPlaces[kPlace];
+  constexpr std::size_t kernel = kNumComponentKernels + kPlace,
+                        lanes = Split(kKernels[kernel].inputs).per_lane;
+  if constexpr (kNormalRows[place.row].normals == Normals::kTabulated) {
+    const auto table = PreparedOf<kernel, RadialTable>(in);
+    if (table == nullptr) {
+      std::fill_n(out, Split(kKernels[kernel].outputs).count, kNan<Real>);
+      return;
+    }
+    RunNormals<kPlace>(MakeRough<place.roughness, Tabulated>(in + lanes, &table->entries()), in, out);
+  } else {
+    RunNormals<kPlace>(MakeNormals<kNormalRows[place.row].normals, place.roughness>(in + lanes), in, out);
   }
 }
 
@@ -277,18 +306,6 @@ void RunMeanFresnel(const Real* in, Real* out, Transport) {
       out[0] = mean([&](auto cos2) { return SchlickFacets<Real>{facets[0]}.Reflectance(cos2); });
     }
   }
-}
-
-// The object that a kernel takes, from the inputs behind the list's second bar; null where they make none.
-template <std::size_t kKernel, class Object, class Real>
-std::shared_ptr<const Object> PreparedOf(const Real* in) {
-  constexpr Names names = Split(kKernels[kKernel].inputs);
-  double values[kMaxInputs] = {};
-  for (std::size_t k = names.columns; k < names.count; ++k) {
-    values[k - names.columns] = static_cast<double>(in[k]);
-  }
-  auto object = std::static_pointer_cast<const Object>(Prepare(kKernel, values));
-  return object->ok() ? object : nullptr;
 }
 
 // Kelemen 2001 Eqs. 4, 5: P_H = D cos.
@@ -459,22 +476,22 @@ constexpr auto Entries() {
                     Store(Narrow<Real>(Refract(Widen(wi), Widen(Load(in + 3)), W(in[6]), W(Side(wi)))), out);
                   }},
 
-      Entry<Real>{"roughness.from_moments",
-                  [](const Real* in, Real* out, Transport) {
-                    const Correlation<Real> c =
-                        FromMoments(in[0], in[1], SlopeMoments<Real>{in[2], in[3], in[4]});
-                    out[0] = c.alpha_x;
-                    out[1] = c.alpha_y;
-                    out[2] = c.r_xy;
-                  }},
-      Entry<Real>{"roughness.to_moments",
-                  [](const Real* in, Real* out, Transport) {
-                    const SlopeMoments<Real> m =
-                        ToMoments(Correlation<Real>{in[0], in[1], in[2]}, in[3], in[4]);
-                    out[0] = m.xx;
-                    out[1] = m.yy;
-                    out[2] = m.xy;
-                  }},
+      Entry<Real>{
+          "roughness.from_moments",
+          [](const Real* in, Real* out, Transport) {
+            const Correlation<Real> c = FromMoments(in[0], in[1], SlopeMoments<Real>{in[2], in[3], in[4]});
+            out[0] = c.alpha_x;
+            out[1] = c.alpha_y;
+            out[2] = c.r_xy;
+          }},
+      Entry<Real>{
+          "roughness.to_moments",
+          [](const Real* in, Real* out, Transport) {
+            const SlopeMoments<Real> m = ToMoments(Correlation<Real>{in[0], in[1], in[2]}, in[3], in[4]);
+            out[0] = m.xx;
+            out[1] = m.yy;
+            out[2] = m.xy;
+          }},
 
       Entry<Real>{"masking.v_cavity",
                   [](const Real* in, Real* out, Transport) { out[0] = VCavityG1(Load(in), Load(in + 3)); }},

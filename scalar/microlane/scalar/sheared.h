@@ -2,9 +2,9 @@
 #ifndef MICROLANE_SCALAR_SHEARED_H_
 #define MICROLANE_SCALAR_SHEARED_H_
 
-#include <array>
 #include <cmath>
 #include <cstddef>
+#include <tuple>
 #include <utility>
 
 #include "microlane/scalar/direction.h"
@@ -13,16 +13,16 @@ namespace microlane::scalar {
 
 // A distribution of unit roughness whose slopes are stretched by alpha_x and alpha_y, correlated by r_xy and
 // moved by the mean slope. Normals go to those of unit roughness by a linear map, directions by its inverse
-// transpose; sums that cancel are Wide. own: the parameters of the distribution's shape.
-template <template <class> class Distribution, class Real, std::size_t kOwn = 0>
+// transpose; sums that cancel are Wide. own: the parameters of the distribution's shape, or its table.
+template <template <class> class Distribution, class Real, class... Own>
 struct Sheared {
-  std::array<Real, kOwn> own;
+  std::tuple<Own...> own;
   Real alpha_x, alpha_y, r_xy, mean_x = 0, mean_y = 0;
 
   // The distribution of unit roughness.
   template <class T>
   Distribution<T> Unit() const {
-    return Unit<T>(std::make_index_sequence<kOwn>());
+    return Unit<T>(std::index_sequence_for<Own...>());
   }
 
   // The projected area of the mesosurface's normal, which stands for v.n.
@@ -59,7 +59,15 @@ struct Sheared {
 
   template <class T, std::size_t... kPlace>
   Distribution<T> Unit(std::index_sequence<kPlace...>) const {
-    return {static_cast<T>(own[kPlace])..., 1, 1};
+    return {As<T>(std::get<kPlace>(own))..., 1, 1};
+  }
+  template <class T>
+  static T As(Real parameter) {
+    return static_cast<T>(parameter);
+  }
+  template <class T, class Entries>
+  static const Entries* As(const Entries* entries) {
+    return entries;
   }
 
   // sqrt(1 - r^2).
@@ -84,13 +92,13 @@ struct Sheared {
   }
 };
 
-template <template <class> class Distribution, class Real, std::size_t kOwn>
-bool IsNan(const Sheared<Distribution, Real, kOwn>& d) {
+template <template <class> class Distribution, class Real, class... Own>
+bool IsNan(const Sheared<Distribution, Real, Own...>& d) {
   return AnyNan(d.template Unit<Real>(), d.alpha_x, d.alpha_y, d.r_xy, d.mean_x, d.mean_y);
 }
 
-template <template <class> class Distribution, class Real, std::size_t kOwn>
-double Cosine(const Sheared<Distribution, Real, kOwn>& distribution, const Vec3<Real>& v) {
+template <template <class> class Distribution, class Real, class... Own>
+double Cosine(const Sheared<Distribution, Real, Own...>& distribution, const Vec3<Real>& v) {
   return distribution.Cosine(v);
 }
 
