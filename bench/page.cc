@@ -246,6 +246,22 @@ std::string TargetTable(const ReportData& data) {
   return html + "</tbody></table></div>\n";
 }
 
+std::string TablesTable(const ReportData& data) {
+  std::string html = TableStart("<th rowspan=2>table<th colspan=2>cost<th colspan=4>largest error",
+                                {"bytes", "ms", "albedo, D", "Lambda", "sampling", "of visible normals"});
+  for (const auto* const tables : {&data.albedo_tables, &data.radial_tables}) {
+    for (const TableCost& cost : *tables) {
+      html += "<tr>" + Cell(Escaped(cost.what)) + Cell(fmt::format("{}", cost.bytes)) + Cell(Short(cost.ms)) +
+              Cell(fmt::format("{:.1e}", cost.error));
+      for (const double error : {cost.masking, cost.sampling, cost.visible}) {
+        html += Cell(tables == &data.albedo_tables ? "-" : fmt::format("{:.1e}", error));
+      }
+      html += "</tr>\n";
+    }
+  }
+  return html + "</tbody></table></div>\n";
+}
+
 }  // namespace
 
 std::string MakePage(const ReportData& data, const std::filesystem::path& folder) {
@@ -313,6 +329,23 @@ std::string MakePage(const ReportData& data, const std::filesystem::path& folder
     html +=
         Image(folder, GlassPlot(kFits[f].glass), fmt::format("Transmission of the {} glass", kFits[f].glass));
   }
+  html +=
+      "<h2>The coupled specular-matte model</h2>\n<p>The figures of Kelemen 2001, by this target. Dotted: "
+      "the mirror "
+      "directions; each lobe's maximum lies below its own. Fig. 6 shows pictures of a scene; here is what "
+      "they differ by. "
+      "The total albedo of Fig. 5 is integrated from the values.</p>\n" +
+      Image(folder, kLobesPlot, "Specular lobes of Kelemen 2001") +
+      Image(folder, kMattePlot, "Matte lobes of Kelemen 2001") +
+      Image(folder, kAlbedoPlot, "Albedo curves of Kelemen 2001");
+  html +=
+      "<h2>Tables</h2>\n<p>Of albedo: the largest error between entries, against the quadrature that makes "
+      "them. Of "
+      "slopes that a user gives as f(r): relative errors as the tables state them, of D, of Lambda, and of "
+      "the densities "
+      "with which normals are sampled.</p>\n" +
+      TablesTable(data) +
+      Image(folder, kTablesPlot, "Error of tables against their size and the time of making");
   html += "<h2>Error against run time, kernel by kernel</h2>\n<div class=\"grid\">\n";
   for (const KernelResult& result : data.kernels) {
     html += Image(folder, KernelPlot(result.kernel),

@@ -259,6 +259,111 @@ std::string GlassScript(const ReportData& data, const std::string& glass) {
              low, high, glass, alphas[0], scales[0], alphas[1], scales[1], snell, curves, differences);
 }
 
+// `curves` as data, of names that begin with `name`, and a plot of them.
+std::string CurvesScript(const std::vector<Curve>& curves, const std::string& name) {
+  std::string script, plot;
+  int count = 0;
+  for (const Curve& curve : curves) {
+    script += fmt::format("${}{} << EOD\n", name, count);
+    for (std::size_t i = 0; i < curve.x.size(); ++i)
+      script += fmt::format("{:.6g} {:.6g}\n", curve.x[i], curve.y[i]);
+    script += "EOD\n";
+    plot += fmt::format("{}${}{} using 1:2 with lines lw 2 dt {} lc rgb '{}' title '{}'",
+                        count == 0 ? "plot " : ", ", name, count, curve.dashed ? "(9,5)" : "1",
+                        kIncidenceColours[curve.colour], curve.title);
+    ++count;
+  }
+  return script + plot + "\n";
+}
+
+// Lobes to equal scales, with the mirror directions of those of 22.5, 45 and 67.5 degrees.
+std::string PolarScript(const std::string& title, const std::vector<Curve>& curves, const std::string& name) {
+  double width = 0, height = 0;
+  for (const Curve& curve : curves) {
+    for (std::size_t i = 0; i < curve.x.size(); ++i) {
+      width = std::max(width, std::abs(curve.x[i]));
+      height = std::max(height, 1.05 * curve.y[i]);
+    }
+  }
+  std::string script = fmt::format(
+      "set title '{}'\nset size ratio -1\nset grid xtics ytics lt 1 lw 0.5 lc rgb '#dddddd'\nset key top "
+      "left Left "
+      "reverse\nset xlabel 'along the surface'\nset ylabel 'along the normal'\nset yrange [0:{:g}]\n",
+      title, height);
+  for (int k = 0; k < 3; ++k) {
+    const double angle = 22.5 * (k + 1) * 3.14159265358979323846 / 180;
+    const double reach = std::min(width / std::sin(angle), height / std::cos(angle));
+    script += fmt::format("set arrow from 0, 0 to {:.5g}, {:.5g} nohead dt 3 lc rgb '{}'\n",
+                          reach * std::sin(angle), reach * std::cos(angle), kIncidenceColours[k]);
+  }
+  return script + CurvesScript(curves, name) + "unset arrow\nset size noratio\n";
+}
+
+std::string SideBySide(const std::string& left, const std::string& right) {
+  return "set multiplot layout 1, 2\n" + left + right + "unset multiplot\n";
+}
+
+std::string LobesScript(const KelemenFigures& figures) {
+  return SideBySide(PolarScript("Fig. 2: radiance of the specular lobe, F = 1, m = 0.1", figures.lobes, "l"),
+                    "set title 'Fig. 6: Cook-Torrance and Eq. 3, n = 1.7, m = 0.3'\nset grid xtics ytics lt "
+                    "1 lw 0.5 lc rgb "
+                    "'#dddddd'\nset key top left Left reverse\nset xlabel 'degrees from the normal'\nset "
+                    "ylabel 'radiance'\n"
+                    "set xrange [-90:90]\nset logscale y\nset yrange [1e-5:100]\nset format y '10^{%T}'\n" +
+                        CurvesScript(figures.cook_torrance, "c"));
+}
+
+std::string MatteScript(const KelemenFigures& figures) {
+  return SideBySide(PolarScript("Fig. 4: the matte BRDF, n = 1.7, m = 0.8", figures.matte, "b"),
+                    PolarScript("Fig. 4: the radiance it reflects", figures.matte_radiance, "r"));
+}
+
+std::string AlbedoScript(const KelemenFigures& figures) {
+  const auto degrees = [](const std::string& title) {
+    return fmt::format(
+        "set title '{}'\nset grid xtics ytics lt 1 lw 0.5 lc rgb '#dddddd'\nset key bottom left Left "
+        "reverse\nset "
+        "xlabel 'degrees from the normal'\nset ylabel 'albedo'\nset xrange [0:90]\nset yrange [0:1.05]\n",
+        title);
+  };
+  return SideBySide(
+      degrees("Fig. 3: albedo of the specular lobe, F = 1") + CurvesScript(figures.albedos, "a"),
+      degrees("Fig. 5: coupled, k = 1, n = 1.7, m = 0.8") + CurvesScript(figures.coupled, "s"));
+}
+
+// Error over size and over the time of making, of both kinds of tables.
+std::string TablesScript(const ReportData& data) {
+  std::string script;
+  Range kib, ms;
+  for (const auto* const tables : {&data.albedo_tables, &data.radial_tables}) {
+    const bool albedo = tables == &data.albedo_tables;
+    script += fmt::format("${} << EOD\n", albedo ? "albedo" : "radial");
+    for (const TableCost& cost : *tables) {
+      const double size = static_cast<double>(cost.bytes) / 1024;
+      kib.Add(size);
+      ms.Add(cost.ms);
+      script += fmt::format("{:g} {:g} {:g}\n", size, cost.ms, std::max(cost.error, 1e-9));
+    }
+    script += "EOD\n";
+  }
+  const auto panel = [&](const char* axis, const Range& range, int column, double goal) {
+    return fmt::format("set xlabel '{}'\n", axis) + LogAxis('x', range, 1.6) +
+           "set logscale y\nset yrange [5e-10:1e-3]\nset format y '10^{%T}'\nset ylabel 'largest error'\n"
+           "set grid xtics ytics lt 1 lw 0.5 lc rgb '#dddddd'\nset key bottom left Left reverse\n"
+           "set arrow 1 from graph 0, first 1e-4 to graph 1, first 1e-4 nohead dt 3 lc rgb '#1f6fb2'\n" +
+           fmt::format(
+               "set arrow 2 from first {0:g}, graph 0 to first {0:g}, graph 1 nohead dt 3 lc rgb '#1f6fb2'\n",
+               goal) +
+           fmt::format(
+               "plot $albedo using {0}:3 with points pt 7 ps 1.2 lc rgb '#1f6fb2' title 'albedo', $radial "
+               "using {0}:3 with points pt 9 ps 1.4 lc rgb '#e08214' title 'slopes: D', NaN with lines dt 3 "
+               "lc "
+               "rgb '#1f6fb2' title 'goals of albedo'\n",
+               column);
+  };
+  return script + SideBySide(panel("size, KiB", kib, 1, 16), panel("making, milliseconds", ms, 2, 5));
+}
+
 // Runs `script` once for each of the two formats.
 std::string Draw(const std::filesystem::path& folder, const std::string& base, int width, int height,
                  const std::string& script) {
@@ -308,6 +413,11 @@ std::string WritePlots(const ReportData& data, const std::filesystem::path& fold
   for (std::size_t f = 0; f < std::size(kFits); f += 2) {
     plots.emplace_back(GlassPlot(kFits[f].glass), GlassScript(data, kFits[f].glass));
   }
+  const std::size_t pairs = plots.size();
+  plots.emplace_back(kLobesPlot, LobesScript(data.kelemen));
+  plots.emplace_back(kMattePlot, MatteScript(data.kelemen));
+  plots.emplace_back(kAlbedoPlot, AlbedoScript(data.kelemen));
+  plots.emplace_back(kTablesPlot, TablesScript(data));
   const std::size_t wide = plots.size();
   for (const KernelResult& result : data.kernels) {
     plots.emplace_back(KernelPlot(result.kernel), KernelScript(result));
@@ -315,7 +425,7 @@ std::string WritePlots(const ReportData& data, const std::filesystem::path& fold
   for (std::size_t i = 0; i < plots.size(); ++i) {
     progress(i, plots.size());
     const int width = i < overviews ? 1150 : i < wide ? 1000 : 620;
-    const int height = i < overviews ? rows : i == overviews ? 440 : i < wide ? 760 : 340;
+    const int height = i < overviews ? rows : i == overviews ? 440 : i < pairs ? 760 : i < wide ? 420 : 340;
     const std::string error = Draw(folder, plots[i].first, width, height, plots[i].second);
     if (!error.empty()) return error;
   }

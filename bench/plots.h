@@ -18,6 +18,10 @@ inline constexpr const char* kOverviewPlot = "plots/overview";
 inline constexpr const char* kSpeedPlot = "plots/speed";
 inline constexpr const char* kErrorPlot = "plots/error";
 inline constexpr const char* kFloorPlot = "plots/floor";
+inline constexpr const char* kLobesPlot = "plots/kelemen_lobes";    // Kelemen 2001 Figs. 2, 6
+inline constexpr const char* kAlbedoPlot = "plots/kelemen_albedo";  // Figs. 3, 5
+inline constexpr const char* kMattePlot = "plots/kelemen_matte";    // Fig. 4
+inline constexpr const char* kTablesPlot = "plots/tables";
 
 // Whether there is a gnuplot to run.
 bool HasGnuplot();

@@ -275,6 +275,10 @@ void Run(const Request& request) {
   MeasureErrors(request, progress, data);
   SortExtremes(data);
   data.glasses = MeasureGlasses();
+  progress.Show("making tables", 0, 1, "");
+  data.kelemen = MeasureKelemen();
+  data.albedo_tables = MeasureAlbedoTables();
+  data.radial_tables = MeasureRadialTables();
   SetGoals(data);
   progress.Clear();
   WriteTables(data, folder);

@@ -10,6 +10,7 @@
 
 #include "ceilings.h"
 #include "glasses.h"
+#include "kelemen.h"
 #include "performance.h"
 #include "textbook_accuracy.h"
 
@@ -86,6 +87,8 @@ struct ReportData {
   std::vector<TargetTime> targets;
   std::vector<StabilityResult> stability;  // the results of a row together
   std::vector<GlassCurve> glasses;
+  KelemenFigures kelemen;
+  std::vector<TableCost> albedo_tables, radial_tables;
   std::vector<Goal> goals;
 };
 
