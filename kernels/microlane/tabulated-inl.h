@@ -55,11 +55,11 @@ HWY_INLINE void LoadCubic(DD dd, const double* cells, TableIndex<DD> cell, Vec<D
 // g(x) of a curve, x >= 0 or NaN, in double lanes.
 template <class DD>
 HWY_INLINE Vec<DD> CurveAt(DD dd, const RadialCurve& curve, Vec<DD> x) {
-  const Vec<DD> one = Const(dd, 1), end = Const(dd, curve.end);
-  const auto near = hn::Lt(x, end);  // false of NaN
+  const Vec<DD> one = Const(dd, 1), end = Const(dd, curve.end), u = hn::Add(one, x);
+  const auto near = hn::Lt(u, Const(dd, 1 + curve.end));  // false of NaN
   TableIndex<DD> cell;
   Vec<DD> p, c0, c1, c2, c3;
-  FindPlace<RadialCurve::kCellBits>(dd, hn::IfThenElse(near, hn::Add(one, x), one), cell, p);
+  FindPlace<RadialCurve::kCellBits>(dd, hn::IfThenElse(near, u, one), cell, p);
   LoadCubic(dd, curve.cells, cell, c0, c1, c2, c3);
   const Vec<DD> g = hn::MulAdd(hn::MulAdd(hn::MulAdd(c3, p, c2), p, c1), p, c0);
   if (HWY_LIKELY(hn::AllTrue(dd, near))) return g;
@@ -74,16 +74,18 @@ HWY_INLINE Vec<DD> SurfaceAt(DD dd, const RadialSurface& surface, Vec<DD> x, Vec
   const hn::RebindToSigned<DD> di;
   using Index = hn::TFromD<decltype(di)>;
   const Vec<DD> one = Const(dd, 1), below_one = Const(dd, 0x1.fffffffffffffp-1);
-  const auto end = [&](auto cells, auto bits) HWY_ATTR {
+  // 1 + x within the cells, whatever x is: NaN has a logarithm here.
+  const auto within = [&](Vec<DD> at, auto cells, auto bits) HWY_ATTR {
     const auto past = hn::Set(di, static_cast<Index>(cells));
-    return hn::Mul(PlaceBegin<decltype(bits)::value>(dd, past), below_one);
+    const Vec<DD> u = hn::Add(one, at), end = hn::Mul(PlaceBegin<decltype(bits)::value>(dd, past), below_one);
+    return hn::IfThenElse(hn::Ge(u, one), hn::Min(u, end), one);
   };
   using RowBits = std::integral_constant<size_t, RadialSurface::kRowBits>;
   using CellBits = std::integral_constant<size_t, RadialSurface::kCellBits>;
   TableIndex<DD> row, column;
   Vec<DD> p, q;
-  FindPlace<RowBits::value>(dd, hn::Min(hn::Add(one, x), end(surface.row_cells, RowBits())), row, p);
-  FindPlace<CellBits::value>(dd, hn::Min(hn::Add(one, y), end(surface.count, CellBits())), column, q);
+  FindPlace<RowBits::value>(dd, within(x, surface.row_cells, RowBits()), row, p);
+  FindPlace<CellBits::value>(dd, within(y, surface.count, CellBits()), column, q);
   // Lagrange's weights.
   const Vec<DD> p1 = hn::Sub(p, Const(dd, 0.25)), p2 = hn::Sub(p, Const(dd, 0.75)), p3 = hn::Sub(p, one);
   const Vec<DD> outer = hn::Mul(p1, p2), inner = hn::Mul(p, p3);

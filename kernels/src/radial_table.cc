@@ -56,7 +56,7 @@ double CubicSlope(const double* c, double p) { return c[1] + p * (2 * c[2] + p *
 
 // g(x) of a curve.
 double CurveAt(const RadialCurve& curve, double x) {
-  if (!(x < curve.end)) return curve.tail_value + curve.tail_slope * std::log(x / curve.end);
+  if (!(1 + x < 1 + curve.end)) return curve.tail_value + curve.tail_slope * std::log(x / curve.end);
   int exponent = 0;
   const double part = (2 * std::frexp(1 + x, &exponent) - 1) * kOctave, whole = std::floor(part);
   const std::size_t cell = static_cast<std::size_t>(exponent - 1) * kOctave + static_cast<std::size_t>(whole);

@@ -17,6 +17,7 @@ namespace microlane::scalar {
 struct TablePlace {
   TablePlace(std::size_t cell_at, double part_of_it) : cell(cell_at), part(part_of_it) {}
   TablePlace(double x, std::size_t bits) {
+    x = x >= 0 ? std::min(x, 0x1p300) : 0;  // NaN, which infinite inputs make, as 0
     const int octave = std::ilogb(1 + x);
     const double cells = std::ldexp(std::ldexp(1 + x, -octave) - 1, static_cast<int>(bits));
     part = cells - std::floor(cells);
@@ -31,7 +32,7 @@ inline double Cubic(const double* c, double p) { return c[0] + p * (c[1] + p * (
 
 // g(x) of a curve, x >= 0.
 inline double CurveAt(const RadialCurve& curve, double x) {
-  if (!(x < curve.end)) return curve.tail_value + curve.tail_slope * std::log(x / curve.end);
+  if (!(1 + x < 1 + curve.end)) return curve.tail_value + curve.tail_slope * std::log(x / curve.end);
   const TablePlace place(x, RadialCurve::kCellBits);
   return Cubic(curve.cells + 4 * place.cell, place.part);
 }
