@@ -50,12 +50,6 @@ std::string KernelName(const testing::TestParamInfo<std::size_t>& info) {
   return name;
 }
 
-// The oracle inverts Beckmann's visible slopes step by step.
-bool HasCostlyOracle(std::size_t kernel) {
-  const std::string_view id = kKernels[kernel].id;
-  return id.find("beckmann") != id.npos && id.find("sample_visible") != id.npos;
-}
-
 class AccuracyTest : public testing::TestWithParam<std::size_t> {};
 INSTANTIATE_TEST_SUITE_P(Kernels, AccuracyTest, testing::Range(std::size_t{0}, kNumKernels), KernelName);
 
@@ -63,7 +57,9 @@ TEST_P(AccuracyTest, IsWithinItsBoundOnTheBestTarget) {
   for (AccuracyOptions options : AllAccuracies()) {
     options.samples = options.double_lanes ? 10000 : 150000;
     if (LongRun()) options.samples = options.double_lanes ? 200000 : 3000000;
-    if (HasCostlyOracle(GetParam())) options.samples /= 5;
+    options.samples /= OracleCost(GetParam());
+    options.grid /= OracleCost(GetParam());
+    options.extremes = false;  // extremes_test has them, on every target
     options.seed = LongRun() ? 2 : 1;
     Expect(GetParam(), options, MeasureAccuracy(GetParam(), options));
   }

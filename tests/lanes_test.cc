@@ -141,42 +141,58 @@ bool SameBits(const T* a, const T* b, std::size_t n) {
   return n == 0 || std::memcmp(a, b, n * sizeof(T)) == 0;
 }
 
-// n elements between two pages that may not be touched: they end where one begins, or begin where one ends.
+// Up to `most` elements between two pages that may not be touched: they end where one begins, or begin where
+// one ends.
 template <class T>
 class GuardedArray {
  public:
-  GuardedArray(std::size_t n, bool at_end) : n_(n), page_(static_cast<std::size_t>(sysconf(_SC_PAGESIZE))) {
-    inner_ = (n * sizeof(T) + page_ - 1) / page_ * page_;
+  GuardedArray(std::size_t most, bool at_end)
+      : at_end_(at_end), page_(static_cast<std::size_t>(sysconf(_SC_PAGESIZE))) {
+    inner_ = (most * sizeof(T) + page_ - 1) / page_ * page_;
+    untouched_.assign(inner_, kCanary);
     void* all = mmap(nullptr, inner_ + 2 * page_, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     EXPECT_NE(all, MAP_FAILED);
     base_ = static_cast<unsigned char*>(all);
-    if (inner_ != 0) {
-      EXPECT_EQ(mprotect(base_ + page_, inner_, PROT_READ | PROT_WRITE), 0);
-    }
-    std::memset(base_ + page_, kCanary, inner_);
-    begin_ = reinterpret_cast<T*>(base_ + page_ + (at_end ? inner_ - n * sizeof(T) : 0));
+    EXPECT_EQ(mprotect(base_ + page_, inner_, PROT_READ | PROT_WRITE), 0);
+    Resize(most);
   }
   ~GuardedArray() { munmap(base_, inner_ + 2 * page_); }
   GuardedArray(const GuardedArray&) = delete;
   GuardedArray& operator=(const GuardedArray&) = delete;
 
-  T* data() { return begin_; }
+  // n elements, and nothing else, may be touched from now on.
+  void Resize(std::size_t n) {
+    n_ = n;
+    begin_ = at_end_ ? inner_ - n * sizeof(T) : 0;
+    std::memcpy(base_ + page_, untouched_.data(), inner_);
+  }
+
+  T* data() { return reinterpret_cast<T*>(base_ + page_ + begin_); }
 
   // Whether what lies between the elements and the far page is as it was.
   bool RestUntouched() const {
-    const auto* first = reinterpret_cast<const unsigned char*>(begin_);
-    const auto* last = reinterpret_cast<const unsigned char*>(begin_ + n_);
-    const auto untouched = [](unsigned char c) { return c == kCanary; };
-    return std::all_of(base_ + page_, const_cast<unsigned char*>(first), untouched) &&
-           std::all_of(last, static_cast<const unsigned char*>(base_ + page_ + inner_), untouched);
+    const std::size_t end = begin_ + n_ * sizeof(T);
+    return std::memcmp(base_ + page_, untouched_.data(), begin_) == 0 &&
+           std::memcmp(base_ + page_ + end, untouched_.data(), inner_ - end) == 0;
   }
 
  private:
   static constexpr unsigned char kCanary = 0xA5;
-  std::size_t n_, page_, inner_;
+  bool at_end_;
+  std::size_t n_ = 0, page_, inner_, begin_ = 0;
+  std::vector<unsigned char> untouched_;
   unsigned char* base_;
-  T* begin_;
 };
+
+template <class T>
+std::vector<std::unique_ptr<GuardedArray<T>>> GuardedArrays(std::size_t count, std::size_t most,
+                                                            bool at_end) {
+  std::vector<std::unique_ptr<GuardedArray<T>>> arrays;
+  for (std::size_t k = 0; k < count; ++k) {
+    arrays.push_back(std::make_unique<GuardedArray<T>>(most, at_end));
+  }
+  return arrays;
+}
 
 std::vector<std::size_t> Sizes() {
   std::vector<std::size_t> sizes;
@@ -193,16 +209,17 @@ TEST(Lanes, TailTouchesExactlyNLanes) {
     const Arrays<T> in = InputsOf<T>(kernel, kMost);
     const Arrays<T> expected = Results(kernel, mode, in);
     for (const bool at_end : {true, false}) {
+      const auto guarded_in = GuardedArrays<T>(in.size(), kMost, at_end);
+      const auto guarded_out = GuardedArrays<T>(expected.size(), kMost, at_end);
       for (const std::size_t n : Sizes()) {
-        std::vector<std::unique_ptr<GuardedArray<T>>> guarded_in, guarded_out;
         Call<T> call;
         for (std::size_t k = 0; k < in.size(); ++k) {
-          guarded_in.push_back(std::make_unique<GuardedArray<T>>(n, at_end));
+          guarded_in[k]->Resize(n);
           std::copy(in[k].begin(), in[k].begin() + static_cast<std::ptrdiff_t>(n), guarded_in[k]->data());
           call.in[k] = guarded_in[k]->data();
         }
         for (std::size_t i = 0; i < expected.size(); ++i) {
-          guarded_out.push_back(std::make_unique<GuardedArray<T>>(n, at_end));
+          guarded_out[i]->Resize(n);
           call.out[i] = guarded_out[i]->data();
         }
         RunMode(kernel, mode, call, n);

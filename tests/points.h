@@ -73,6 +73,16 @@ class RandomPoints {
   Values values_;
 };
 
+// How many times fewer points than others a kernel takes whose oracle is slow: it sums over normals, or finds
+// visible slopes and inverse functions step by step.
+constexpr std::size_t OracleCost(std::size_t kernel) {
+  const std::string_view id = kKernels[kernel].id;
+  const auto has = [&](std::string_view part) { return id.find(part) != id.npos; };
+  if (has("mean_fresnel") || has("rough_diffuse") || has("interfaced_body")) return 10;
+  if (has("beckmann") || has("tabulated")) return has("sample_visible") ? 10 : has("sample") ? 3 : 1;
+  return 1;
+}
+
 // About `count` points, evenly spread over the product of a few dozen values of each quantity.
 std::vector<Point> GridPoints(std::size_t kernel, std::size_t count);
 
