@@ -30,9 +30,13 @@ struct Request {
   double ratio = 1, seconds = 0.03;
 };
 
-// Index 1.5, gold at 633 nm, f0 = 0.04.
+// Index 1.5, albedo 0.8, gold at 633 nm, f0 = 0.04.
 double FacetParameter(std::string_view name) {
-  return name == "eta" ? 1.5 : name == "n" ? 0.18 : name == "kappa" ? 3.4 : 0.04;
+  return name == "eta" || name == "n_i" ? 1.5
+         : name == "k"                  ? 0.8
+         : name == "n"                  ? 0.18
+         : name == "kappa"              ? 3.4
+                                        : 0.04;
 }
 
 // Pairs of directions, wi or v and wo: from the normal to 85 degrees each, at every azimuth.
@@ -155,7 +159,7 @@ void AddQuadrature(CLI::App& app) {
       "Errors are those of double lanes over 972 pairs of directions, each from the normal to 85 degrees; "
       "the order "
       "is that of\n"
-      "the rule. Facets are of index 1.5, of gold, or of f0 = 0.04.");
+      "the rule. Facets are of index 1.5, over a body of albedo 0.8, of gold, or of f0 = 0.04.");
   quadrature->callback([request] { Run(*request); });
 }
 

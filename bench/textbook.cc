@@ -960,25 +960,61 @@ void OpaqueSurface(const float* in, float* out, Transport transport) {
   }
 }
 
-// Heitz 2014 Eq. 31 by normals from D cos at the midpoints of a grid of random numbers, as many as the kernel
-// takes. They are other normals than the kernel's, so what is between the two is mostly the error of this
-// rule.
+// Meneveaux 2015 Eq. 10 as printed.
+inline float DiffuseReflectance(float n) {
+  if (n == 1) return 0;
+  if (n < 1) return 1 - (1 - DiffuseReflectance(1 / n)) * Sqr(n);
+  const float n2 = Sqr(n), n4 = Sqr(n2);
+  return 0.5f - 2 * n * n2 * (n2 + 2 * n - 1) / ((n2 + 1) * (n4 - 1)) +
+         (n - 1) * (3 * n + 1) / (6 * Sqr(n + 1)) +
+         8 * n4 * (n4 + 1) / ((n2 + 1) * Sqr(n4 - 1)) * std::log(n) +
+         n2 * Sqr(n2 - 1) / (Sqr(n2 + 1) * (n2 + 1)) * std::log((n - 1) / (n + 1));
+}
+void DiffuseExternal(const float* in, float* out, Transport) { out[0] = DiffuseReflectance(in[0]); }
+void DiffuseInternal(const float* in, float* out, Transport) {
+  out[0] = 1 - (1 - DiffuseReflectance(in[0])) / Sqr(in[0]);
+}
+
+// What a facet scatters, as a part of what a white Lambertian does: Meneveaux 2015 Eq. 8.
+struct LambertianFacet {
+  explicit LambertianFacet(const float*) {}
+  float operator()(float, float) const { return 1; }
+};
+struct InterfacedFacet {
+  float n, k, r_i;
+  explicit InterfacedFacet(const float* in)
+      : n(in[0]), k(in[1]), r_i(1 - (1 - DiffuseReflectance(n)) / Sqr(n)) {}
+  float operator()(float cos_i, float cos_o) const {
+    return (1 - FrDielectric(cos_i, n)) * (1 - FrDielectric(cos_o, n)) * k / (Sqr(n) * (1 - k * r_i));
+  }
+};
+void FacetBody(const float* in, float* out, Transport) {
+  out[0] = in[0] > 0 && in[1] > 0 ? InterfacedFacet(in + 2)(in[0], in[1]) / kPi : 0;
+}
+
+// Heitz 2014 Eq. 31 and Meneveaux 2015 Eq. 12 by normals from D cos at the midpoints of a grid of random
+// numbers, as many as the kernel takes. They are other normals than the kernel's, so what is between the two
+// is mostly the error of this rule.
 template <class Distribution, std::size_t kKernel>
 void DiffuseSurface(const float* in, float* out, Transport) {
-  constexpr DielectricQuantity::Joint kJoint =
-      kDiffuseQuantities[PlaceOfDiffuseKernel(kKernel).quantity].joint;
+  constexpr DiffuseKernelPlace place = PlaceOfDiffuseKernel(kKernel);
+  constexpr DielectricQuantity::Joint kJoint = kDiffuseQuantities[place.quantity].joint;
+  using Facet =
+      std::conditional_t<place.scatterer == Scatterer::kInterfaced, InterfacedFacet, LambertianFacet>;
+  const Facet facet(in + 8);
   const Distribution distribution = Distribution::Make(in + 6);
   const Vec3 wi = Load(in), wo = Load(in + 3);
   out[0] = 0;
   if (wi.z * wo.z <= 0) return;
-  const int order = static_cast<int>(in[8]);
+  const int order = static_cast<int>(in[Split(kKernels[kKernel].inputs).columns]);
   const float side = wi.z < 0 ? -1.f : 1.f, n = static_cast<float>(order);
   float sum = 0;
   for (int j = 0; j < order; ++j) {
     for (int k = 0; k < 3 * order; ++k) {
       const Vec3 wm = distribution.SampleNormal((static_cast<float>(j) + 0.5f) / n,
                                                 (static_cast<float>(k) + 0.5f) / (3 * n));
-      sum += std::max(0.f, side * Dot(wi, wm)) * std::max(0.f, side * Dot(wo, wm)) / CosTheta(wm);
+      const float cos_i = std::max(0.f, side * Dot(wi, wm)), cos_o = std::max(0.f, side * Dot(wo, wm));
+      sum += cos_i * cos_o * facet(cos_i, cos_o) / CosTheta(wm);
     }
   }
   out[0] = Masking<kJoint>(distribution, wi, wo, {0, 0, 1}) * sum / (3 * n * n * kPi * AbsCosTheta(wi));
@@ -1346,6 +1382,9 @@ constexpr std::array kEntries = {
 
     Make<KernelIndex("fresnel.conductor"), ConductorReflectance>(),
     Make<KernelIndex("fresnel.schlick"), SchlickReflectance>(),
+    Make<KernelIndex("fresnel.diffuse_external"), DiffuseExternal>(),
+    Make<KernelIndex("fresnel.diffuse_internal"), DiffuseInternal>(),
+    Make<KernelIndex("interfaced.facet_body"), FacetBody>(),
 
     Make<KernelIndex("half_vector.reflection"), ReflectionHalf>(),
     Make<KernelIndex("half_vector.reflection_jacobian"), ReflectionJacobian>(),
@@ -1417,7 +1456,7 @@ constexpr void AddReflectors(KernelTable<Batch>& table) {
 
 template <class Distribution, std::size_t... kQuantity>
 constexpr void AddDiffuse(KernelTable<Batch>& table, std::index_sequence<kQuantity...>) {
-  constexpr std::size_t kFirst = DiffuseKernel(Distribution::kNormals, 0);
+  constexpr std::size_t kFirst = DiffuseKernel({Distribution::kNormals, Scatterer::kLambertian, 0});
   ((table[kFirst + kQuantity] = {Loop<kFirst + kQuantity, DiffuseSurface<Distribution, kFirst + kQuantity>>,
                                  true}),
    ...);

@@ -74,6 +74,7 @@ class Lanes {
                : name == "eta"      ? eta_
                : name == "n"        ? eta_
                : name == "kappa"    ? 2 * eta_
+               : name == "n_i"      ? std::max(eta_, 1 / eta_)
                : name == "f0"       ? 0.04
                : name == "x"        ? x_
                : name == "a"        ? a_

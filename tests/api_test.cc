@@ -167,16 +167,22 @@ void AppendReflectors(std::vector<Row<T>>& rows, std::index_sequence<kPlace...>)
    ...);
 }
 
-// The typed function of a kernel of a diffuse surface, with the first lane's order.
+// The typed function of a kernel of facets that scatter, with the first lane's order.
 template <class T, std::size_t kKernel>
 void RunDiffuse(Arguments<T>& a) {
-  constexpr ModelKernelPlace place = PlaceOfDiffuseKernel(kKernel);
+  constexpr DiffuseKernelPlace place = PlaceOfDiffuseKernel(kKernel);
   constexpr JointMasking masking = kDiffuseQuantities[place.quantity].joint == DielectricQuantity::kSeparable
                                        ? JointMasking::kSeparable
                                        : JointMasking::kHeightCorrelated;
-  const QuadratureRule rule(static_cast<double>(a.in[8][0]));
-  RoughDiffuseCalls<place.normals>::Eval(a.n, a.Direction(0), a.Direction(3), {a.Value(6), a.Value(7)}, rule,
-                                         a.Out(0), a.accuracy, masking);
+  const QuadratureRule rule(static_cast<double>(a.in[Split(kKernels[kKernel].inputs).columns][0]));
+  const RoughnessOf<place.normals, T> roughness{a.Value(6), a.Value(7)};
+  if constexpr (place.scatterer == Scatterer::kInterfaced) {
+    InterfacedBodyCalls<place.normals>::Eval(a.n, a.Direction(0), a.Direction(3), roughness,
+                                             {a.Value(8), a.Value(9)}, rule, a.Out(0), a.accuracy, masking);
+  } else {
+    RoughDiffuseCalls<place.normals>::Eval(a.n, a.Direction(0), a.Direction(3), roughness, rule, a.Out(0),
+                                           a.accuracy, masking);
+  }
 }
 
 template <class T, std::size_t... kPlace>
@@ -308,6 +314,9 @@ const std::vector<Row<T>>& Rows() {
       {"fresnel.dielectric_p", [](A& a) { fresnel::DielectricP(a.n, a.Lanes(0), a.Value(1), a.Out(0), a.accuracy); }},
 
       {"fresnel.conductor", [](A& a) { fresnel::Conductor(a.n, a.Lanes(0), a.Value(1), a.Value(2), a.Out(0), a.accuracy); }},
+      {"fresnel.diffuse_external", [](A& a) { fresnel::DiffuseExternal(a.n, a.Lanes(0), a.Out(0), a.accuracy); }},
+      {"fresnel.diffuse_internal", [](A& a) { fresnel::DiffuseInternal(a.n, a.Lanes(0), a.Out(0), a.accuracy); }},
+      {"interfaced.facet_body", [](A& a) { interfaced::FacetBody(a.n, a.Lanes(0), a.Lanes(1), {a.Value(2), a.Value(3)}, a.Out(0), a.accuracy); }},
       {"fresnel.schlick", [](A& a) { fresnel::Schlick(a.n, a.Lanes(0), a.Value(1), a.Out(0), a.accuracy); }},
 
       {"half_vector.reflection", [](A& a) { half_vector::Reflection(a.n, a.Direction(0), a.Direction(3), a.OutDirection(0), a.accuracy); }},

@@ -113,6 +113,7 @@ TEST(Extremes, ParallelHalf) { CheckRow("parallel-half"); }
 TEST(Extremes, NotUnit) { CheckRow("not-unit"); }
 TEST(Extremes, EtaOne) { CheckRow("eta-one"); }
 TEST(Extremes, EtaExtreme) { CheckRow("eta-extreme"); }
+TEST(Extremes, MeanFresnelOne) { CheckRow("mean-fresnel-one"); }
 TEST(Extremes, TirEdge) { CheckRow("tir-edge"); }
 TEST(Extremes, UEdges) { CheckRow("u-edges"); }
 TEST(Extremes, OffCentre) { CheckRow("off-centre"); }

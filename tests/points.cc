@@ -56,6 +56,7 @@ enum Field : int {
   kK,
   kM,
   kIndex,
+  kNi,
   kTail,
   kNumFields
 };
@@ -64,7 +65,7 @@ constexpr std::string_view kFieldNames[] = {
     "wox",    "woy",      "woz",       "cos_i",     "cos_o",     "alpha",    "alpha_x", "alpha_y", "r_xy",
     "mean_x", "mean_y",   "moment_xx", "moment_yy", "moment_xy", "exponent", "eta",     "n",       "kappa",
     "f0",     "Lambda_i", "Lambda_o",  "u1",        "u2",        "u3",       "x",       "a",       "mu",
-    "gamma",  "order",    "k",         "m",         "index",     "tail"};
+    "gamma",  "order",    "k",         "m",         "index",     "n_i",      "tail"};
 static_assert(std::size(kFieldNames) == kNumFields && std::size(kInputs) == kNumFields,
               "one field per input");
 
@@ -317,6 +318,7 @@ class SceneMaker {
     scene_[kTail] = scene_[kGamma] = prepared_.tail;
     DrawRoughness();
     scene_[kEta] = Fit(kEta, Eta(), values_);
+    scene_[kNi] = BodyIndex();
     scene_[kN] = ConductorIndex();
     scene_[kKappa] = random_.Chance(0.15)  ? 0
                      : random_.Chance(0.1) ? random_.LogUniform(1e-30, 1e-4)
@@ -427,6 +429,12 @@ class SceneMaker {
     if (u < 0.35) return 1 + random_.Sign() * std::pow(10, -1 - random_.Index(7));
     if (u < 0.5) return 1 + random_.Sign() * random_.LogUniform(1e-7, 0.3);
     return random_.LogUniform(0.25, 4);
+  }
+
+  // Of what is denser than its outside.
+  double BodyIndex() {
+    const double eta = scene_[kEta];
+    return Fit(kNi, eta < 1 ? 1 / eta : eta, values_);
   }
 
   // Silver to germanium, and the indices of dielectrics.
@@ -663,6 +671,7 @@ constexpr double kGridEtas[] = {1,    1.0003, 1.33, 1.5,      1.51,     2.42,   
 constexpr double kGridIndices[] = {0.05, 0.1, 0.25, 0.5, 0.9, 1 - 1e-7, 1, 1 + 1e-5, 1.5, 2.5, 4, 10};
 constexpr double kGridKappas[] = {0, 1e-20, 1e-7, 1e-4, 0.01, 0.3, 1, 3, 10, 20};
 constexpr double kGridK[] = {0, 0.18, 0.5, 1};
+constexpr double kGridBodyIndices[] = {1, 1 + 0x1p-23, 1.00001, 1.0003, 1.01, 1.33, 1.5, 2.42, 4};
 constexpr double kGridF0[] = {0, 1e-6, 0.04, 0.3, 0.9, 1 - 1e-7, 1};
 constexpr double kGridLambdas[] = {0,   1e-40, 1e-8, 1e-3,           0.1, 0.5, 1, 3, 100,
                                    1e7, 1e19,  1e37, 0x1.fffffep+127};
@@ -752,6 +761,7 @@ Scene GridScene(const Shape& shape, Digits& digits) {
   take(kM, kTableM);
   take(kIndex, kTableIndices);
   take(kTail, kTableTails);
+  take(kNi, kGridBodyIndices);
   take(kCosI, kGridCosines);
   take(kCosO, kGridCosines);
   if (shape.has[kX]) scene[kX] = -104 + 192.0 / 4096 * static_cast<double>(digits.Take(4097));
@@ -798,6 +808,7 @@ class ExtremeMaker {
     Rational();
     OffCentre();
     Conductor();
+    Bodies();
     Azimuths();
     Cavity();
     Student();
@@ -833,6 +844,7 @@ class ExtremeMaker {
     scene[kK] = 0.5;
     scene[kM] = 0.3f;
     scene[kIndex] = 1.7f;
+    scene[kNi] = 1.5;
     scene[kTail] = 2.5;
     return scene;
   }
@@ -1265,6 +1277,35 @@ class ExtremeMaker {
           const Vector m = shape_.samples ? SampledNormal(shape_, scene) : Normal(scene, 0.5, 0.8);
           AddPair("conductor", "k = 0 to 20, n = 0.05 to 10", scene,
                   AtCosine(Single(m), cosine, FromCosine(0.1, 3)), m);
+        }
+      }
+    }
+  }
+
+  // Means of F, and what is left of a body, next to no interface at all and under every other.
+  void Bodies() {
+    const bool mean = shape_.count == 1 && shape_.has[kEta];
+    if (!mean && !shape_.has[kNi]) return;
+    Scene scene = Base();
+    for (const double step : {0.0, 0x1p-23, 0x1p-22, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 0.5, 1.42, 3.0}) {
+      for (const double n : {1 + step, 1 - std::min(step, 0.75)}) {
+        scene[kEta] = n;
+        scene[kNi] = std::max(n, 1.0);
+        if (mean) {
+          Add("mean-fresnel-one", "n = 1, and from 1 +- 2^-23 to 4 and 1/4", scene);
+          continue;
+        }
+        for (const double k : {0.0, 0x1p-149, 0.5, 1 - 0x1p-24, 1.0}) {
+          scene[kK] = k;
+          for (const double cos_i : {1.0, 0.3, 1e-3, 1e-7, 0x1p-149, 0.0, -0.5}) {
+            for (const double cos_o : {1.0, 0.2, 1e-7, 0x1p-149}) {
+              scene[kCosI] = cos_i;
+              scene[kCosO] = cos_o;
+              Put(scene, kWix, AtHeight(cos_i, 0.5));
+              Put(scene, kWox, AtHeight(cos_o, 2));
+              Add("mean-fresnel-one", "n = 1, and from 1 + 2^-23 to 4, k = 0 to 1", scene);
+            }
+          }
         }
       }
     }

@@ -179,8 +179,8 @@ using OpaqueCase =
     RoughReflectorKernel<Dist, ReflectorKernel(
                                    {kNormals, kReflector, FindReflectorQuantity(kWhat, kJoint, kVisible)})>;
 
-template <class Dist, class Radius, Normals kNormals>
-using DiffuseCase = RoughDiffuseKernel<Dist, Radius, kNormals, 0>;
+template <class Dist, class Radius, Normals kNormals, Scatterer kScatterer>
+using DiffuseCase = RoughDiffuseKernel<Dist, Radius, DiffuseKernel({kNormals, kScatterer, 0})>;
 
 // K over whole vectors; n is a multiple of every vector's lanes.
 template <class K, size_t... kIn>
@@ -269,7 +269,9 @@ Cases CasesOnTarget() {
                  DielectricQuantity::kVCavity>,
       OpaqueCase<Beckmann, beckmann, Reflector::kConductor, DielectricQuantity::kEval>,
       OpaqueCase<Phong, phong, Reflector::kSchlick, DielectricQuantity::kEval>,
-      DiffuseCase<Ggx, GgxRadius, ggx>, DiffuseCase<Beckmann, BeckmannRadius, beckmann>>();
+      DiffuseCase<Ggx, GgxRadius, ggx, Scatterer::kLambertian>,
+      DiffuseCase<Beckmann, BeckmannRadius, beckmann, Scatterer::kLambertian>,
+      DiffuseCase<Ggx, GgxRadius, ggx, Scatterer::kInterfaced>>();
 }
 
 }  // namespace

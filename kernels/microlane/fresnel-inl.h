@@ -109,6 +109,61 @@ HWY_INLINE Vec<D> FresnelDielectric(D d, Vec<D> cos_i, Vec<D> eta) {
   return out;
 }
 
+// Mean of F over diffuse light from the thinner side, r_e of Meneveaux 2015 Eq. 10, of N >= 1: with x = (N -
+// 1)/(N + 1), up to 0.6,
+//   r_e = x (P(x) + 2 x (1 + x)^2 log x)/(1 + x^2)^3,
+// where P has what cancels in Eq. 10 as N goes to 1.
+template <Accuracy A, class D>
+HWY_INLINE Vec<D> DiffuseFresnelOfRatio(D d, Vec<D> x) {
+  const Vec<D> one = Const(d, 1), tiny = Const(d, 1e-37);
+  Vec<D> p;
+  // Interpolation in Chebyshev's nodes of [0, 0.6], of r_e to 2^-15.9 and 2^-52.5.
+  if constexpr (A == Accuracy::kFast) {
+    p = Polynomial(d, x,
+                   {0.66667404060075997, 3.8321328006941502, 0.49815342335205054, -1.5380073034619355,
+                    1.6562614360722334, -1.225296710480934, 3.7272054896350806});
+  } else {
+    p = Polynomial(d, x, {0.66666666666666674, 3.8333333333332416,   0.46666666668901602, -1.233333335491599,
+                          0.28571439580242852, 1.8047584769667639,   0.73975355435908163, 0.67356781019165113,
+                          0.32503518155223227, 0.031676966107465135, 0.62664673949490057, -2.5177738324594916,
+                          9.5358646256533763,  -27.399204703061855,  61.628682606510111,  -106.55540275609353,
+                          139.32115742564275,  -133.23237726206531,  88.149692183447115,  -36.148579855205831,
+                          6.9790078249563683});
+  }
+  const Vec<D> log_x = Log<A>(d, hn::IfThenElse(hn::Lt(x, tiny), tiny, x));
+  const Vec<D> above = hn::Add(one, x), u = hn::MulAdd(x, x, one);
+  const Vec<D> q = hn::MulAdd(hn::Mul(hn::Add(x, x), hn::Mul(above, above)), log_x, p);
+  return RefinedDiv<A>(d, hn::Mul(x, q), hn::Mul(u, hn::Mul(u, u)));
+}
+
+// low or high where x is beyond them; NaN passes.
+template <class D>
+HWY_INLINE Vec<D> Clamped(D d, Vec<D> x, double low, double high) {
+  const Vec<D> from = Const(d, low), to = Const(d, high);
+  return hn::IfThenElse(hn::Lt(x, from), from, hn::IfThenElse(hn::Gt(x, to), to, x));
+}
+
+enum class DiffuseSide { kExternal, kInternal };
+
+// r_e and r_i, by n^2 (1 - r_i) = 1 - r_e; from the denser side r_e is r_i of 1/n.
+template <DiffuseSide kSide>
+struct DiffuseFresnelOp {
+  template <Accuracy A, class D>
+  static HWY_INLINE void Run(D d, Vec<D>& out, Vec<D>& unused, Vec<D> eta) {
+    const Vec<D> one = Const(d, 1);
+    eta = Clamped(d, eta, 0.25, 4);
+    const Vec<D> below = hn::Sub(one, eta), above = hn::Add(one, eta);
+    const Vec<D> k = hn::Mul(below, above), eta2 = hn::Mul(eta, eta);  // 1 - eta^2
+    const Vec<D> thin = DiffuseFresnelOfRatio<A>(d, RefinedDiv<A>(d, hn::Abs(below), above));
+    const auto denser = hn::Lt(eta, one);
+    if constexpr (kSide == DiffuseSide::kExternal) {
+      out = unused = hn::IfThenElse(denser, hn::MulAdd(eta2, thin, k), thin);
+    } else {
+      out = unused = hn::IfThenElse(denser, thin, RefinedDiv<A>(d, hn::NegMulAdd(below, above, thin), eta2));
+    }
+  }
+};
+
 }  // namespace
 }  // namespace HWY_NAMESPACE
 }  // namespace microlane

@@ -48,6 +48,15 @@ template <class T>
 void Conductor(std::size_t n, const T* cos_i, std::size_t channels, const Parameter<T>* index,
                const Parameter<T>* kappa, T* const* reflectance, Accuracy accuracy = Accuracy::kStandard);
 
+// Mean of the dielectric's reflectance over diffuse light from outside, r_e, for eta from 1/4 to 4 (beyond
+// them it counts as the nearer): 0 at eta = 1. Meneveaux 2015 Eq. 10. fresnel.diffuse_external.
+template <class T>
+void DiffuseExternal(std::size_t n, const T* eta, T* reflectance, Accuracy accuracy = Accuracy::kStandard);
+
+// The same from inside, r_i = 1 - (1 - r_e)/eta^2. Meneveaux 2015 Eq. 9. fresnel.diffuse_internal.
+template <class T>
+void DiffuseInternal(std::size_t n, const T* eta, T* reflectance, Accuracy accuracy = Accuracy::kStandard);
+
 // Schlick's approximation from the reflectance at normal incidence, f0 + (1 - f0) (1 - |cos_i|)^5.
 // fresnel.schlick.
 template <class T>

@@ -127,6 +127,7 @@ inline constexpr Input kInputs[] = {
     {"k", 0, 1, "albedo of the matte part, one channel of its colour"},
     {"m", 1e-4, 10, "root mean square slope of Kelemen 2001, alpha of Beckmann"},
     {"index", 1, 4, "index of a dielectric over that of the outside"},
+    {"n_i", 1, 4, "index of a body under its interface over that of the outside"},
     {"tail", 1.55, 1e10, "gamma of the Student-T slopes that a table is made of: any radial function makes one, this one does for tools"},
 };
 
@@ -149,6 +150,7 @@ inline constexpr Output kOutputs[] = {
     {"woy", Metric::kDirection, "1"},
     {"woz", Metric::kDirection, "1"},
     {"exponent", Metric::kUlp, "1"},
+    {"f", Metric::kUlp, "1/sr"},
     {"f_cos", Metric::kUlp, "1/sr"},
     {"pdf", Metric::kUlp, "1/sr"},
     {"weight", Metric::kConditioned, "1"},
@@ -210,6 +212,11 @@ inline constexpr std::string_view kDiffuseNote =
     "against which the error bounds are; 0 for opposite sides and where wiz or woz is 0. Height-correlated: G = 1/(1 + Lambda_i + "
     "Lambda_o), Heitz 99.";
 inline constexpr std::string_view kDiffuseSeparableNote = "As eval with the separable G = G1(i) G1(o), Heitz 98.";
+inline constexpr std::string_view kInterfacedNote =
+    "f |cos(theta_o)| of the body: Lambertian of albedo k under smooth facets of index n_i, without light from facet to facet, as a sum over "
+    "the normals of rough_diffuse's rule, against which the error bounds are. n_i = 1 is rough_diffuse times k. Height-correlated: G = 1/(1 + "
+    "Lambda_i + Lambda_o), Heitz 99.";
+inline constexpr std::string_view kDiffuseFresnelNote = "0 at eta = 1; eta beyond 1/4 or 4 counts as that. n^2 (1 - r_i) = 1 - r_e.";
 inline constexpr std::string_view kMeanFresnelNote =
     "Mean of F(v.m) over the normals that v sees, as a sum over the normals of quadrature.h, against which the error bounds are. v of "
     "either side, as |vz|; 0 where v = 0.";
@@ -261,7 +268,10 @@ inline constexpr Kernel kComponentKernels[] = {
     {"fresnel.dielectric_p", "cos_i | eta", "F", "Walter 2007 Eq. 22, the part polarised in the plane of incidence: ((eta^2 c - g)/(eta^2 c + g))^2", kFresnelNote, false, {1, 4, 1, 8, 18}},
 
     {"fresnel.conductor", "cos_i | n kappa", "F", "Meneveaux 2015 section 2.2; Kelemen 2001 appendix", "Unpolarised; index n + i kappa over that of the incident side; |cos_i| is used. At kappa = 0 the dielectric of eta = n.", false, {1, 4, 4200, 8, 16}},
+    {"fresnel.diffuse_external", "eta", "F", "r_e of Meneveaux 2015 Eq. 10: mean of F over diffuse light from outside", kDiffuseFresnelNote, false, {1, 1, 400, 1, 32}},
+    {"fresnel.diffuse_internal", "eta", "F", "r_i of Meneveaux 2015 Eq. 9: mean of F over diffuse light from inside", kDiffuseFresnelNote, false, {1, 1, 400, 1, 32}},
     {"fresnel.schlick", "cos_i | f0", "F", "Schlick 1994: f0 + (1 - f0) (1 - |cos_i|)^5", "|cos_i| above 1 counts as 1.", false, {1, 4, 16, 8, 4}},
+    {"interfaced.facet_body", "cos_i cos_o | n_i k", "f", "Meneveaux 2015 Eq. 8", "Of a flat surface or one facet: T(cos_i) T(cos_o) k/(pi n^2 (1 - k r_i)); 0 where a cosine is not above 0. n_i beyond 1 or 4, and k beyond 0 or 1, count as that.", false, {1, 1, 5200, 1, 40}},
 
     {"half_vector.reflection", "wix wiy wiz wox woy woz", "hx hy hz", "Walter 2007 Eq. 13", "0 where wi = -wo; sign(0) = 1.", false, {1, 4, 2200, 8, 4}},
     {"half_vector.reflection_jacobian", "wix wiy wiz wox woy woz", "jacobian", "Walter 2007 Eq. 14, first form |o.h|/|h_r|^2", "0 where wi = -wo. Double lanes do not make up for what wo.h_r loses to cancellation near there.", false, {1, 4, 1, 8, 0x1p22}},
@@ -607,10 +617,26 @@ inline constexpr DielectricQuantity kReflectorQuantities[] = {
     {"sample_visible_separable", DielectricQuantity::kSample, true, false, DielectricQuantity::kSeparable, "Walter 2007 Eqs. 14, 23, 39; Heitz 2014 Eq. 16", kReflectorSampleVisibleNote, true},
 };
 
-// What diffuse facets give over each distribution that is a stretch of a radial one.
+// What scatters light within a facet, by its place in kScatterers.
+enum class Scatterer { kLambertian, kInterfaced };
+
+struct ScattererRow {
+  std::string_view id;          // of the family over GGX
+  std::string_view parameters;  // behind those of the distribution
+  std::string_view source;
+  std::string_view note;  // of eval
+};
+
+inline constexpr ScattererRow kScatterers[] = {
+    {"rough_diffuse", "", "Heitz 2014 Eq. 31", kDiffuseNote},
+    {"interfaced_body", " n_i k", "Meneveaux 2015 Eq. 12", kInterfacedNote},
+};
+inline constexpr std::size_t kNumScatterers = std::size(kScatterers);
+
+// What facets that scatter give over each distribution that is a stretch of a radial one.
 inline constexpr DielectricQuantity kDiffuseQuantities[] = {
-    {"eval", DielectricQuantity::kEval, true, false, DielectricQuantity::kCorrelated, "Heitz 2014 Eqs. 31, 99", kDiffuseNote},
-    {"eval_separable", DielectricQuantity::kEval, true, false, DielectricQuantity::kSeparable, "Heitz 2014 Eqs. 31, 98", kDiffuseSeparableNote},
+    {"eval", DielectricQuantity::kEval, true, false, DielectricQuantity::kCorrelated, "Heitz 2014 Eq. 99", ""},
+    {"eval_separable", DielectricQuantity::kEval, true, false, DielectricQuantity::kSeparable, "Heitz 2014 Eq. 98", kDiffuseSeparableNote},
 };
 inline constexpr std::size_t kNumDiffuseQuantities = std::size(kDiffuseQuantities);
 
@@ -640,7 +666,7 @@ struct ModelFamily {
   Bounds eval_reflection{}, pdf_reflection{}, sample{};
   Bounds reflector_value[kNumReflectors]{}, reflector_sample[kNumReflectors]{};
   Bounds reflector_sample_v_cavity[kNumReflectors]{}, reflector_sample_visible[kNumReflectors]{},
-      sample_visible{}, diffuse{};
+      sample_visible{}, diffuse[kNumScatterers]{};
   Bounds mean_fresnel[kNumMeanFresnelQuantities]{};
   // NOLINTEND(readability-redundant-member-init)
 
@@ -661,7 +687,7 @@ inline constexpr ModelFamily kModelFamilies[] = {
      {{1, 14, 450, 16, 13}, {1, 14, 1000, 16, 13}, {1, 14, 450, 16, 13}},
      {{1, 16, 2800, 24, 4000}, {1, 16, 2800, 24, 4000}, {1, 16, 2800, 24, 4000}},
      {{1, 24, 2800, 32, 24}, {1, 24, 3400, 32, 60}, {1, 24, 2800, 32, 24}}, {1, 24, 6500, 32, 24},
-     {1, 14, 4200, 14, 256},
+     {{1, 14, 4200, 14, 256}, {1, 20, 4200, 24, 256}},
      {{1, 24, 3600, 36, 256}, {1, 30, 4400, 64, 256}, {1, 24, 1200, 24, 64}, {1, 1, 64, 1, 40}}},
     {"_beckmann", "alpha_x alpha_y", "Beckmann: Walter 2007 Eqs. 25, 26, 28, 29, stretched",
      {1, 19, 6500, 24, 0x1p21}, {1, 18, 6500, 24, 0x1p14}, {1, 14, 2400, 20, 4800}, {1, 24, 6500, 32, 17},
@@ -669,7 +695,7 @@ inline constexpr ModelFamily kModelFamilies[] = {
      {{1, 14, 450, 16, 13}, {1, 14, 1000, 16, 13}, {1, 14, 450, 16, 13}},
      {{1, 16, 2800, 24, 4000}, {1, 16, 2800, 24, 4000}, {1, 16, 2800, 24, 4000}},
      {{1, 18, 2800, 20, 26}, {1, 18, 2800, 20, 40}, {1, 18, 2800, 20, 26}}, {1, 24, 6500, 32, 24},
-     {1, 14, 4200, 14, 512},
+     {{1, 14, 4200, 14, 512}, {1, 20, 4200, 24, 512}},
      {{1, 40, 4400, 40, 256}, {1, 30, 4600, 64, 256}, {1, 40, 1200, 40, 64}, {1, 1, 32, 1, 16}}},
     {"_phong", "exponent", "Phong: Walter 2007 Eqs. 27, 30-32",
      {1, 21, 6500, 24, 0x1p21}, {1, 20, 6500, 24, 0x1p14}, {1, 14, 2400, 20, 4200}, {1, 24, 4600, 32, 17},
@@ -716,7 +742,9 @@ constexpr std::size_t NumReflectorKernels(Normals normals) {
   return kNumReflectors * NumReflectorQuantities(normals);
 }
 constexpr std::size_t NumDiffuseKernels(Normals normals) {
-  return kModelFamilies[static_cast<std::size_t>(normals)].diffuse.high > 0 ? kNumDiffuseQuantities : 0;
+  return kModelFamilies[static_cast<std::size_t>(normals)].diffuse[0].high > 0
+             ? kNumScatterers * kNumDiffuseQuantities
+             : 0;
 }
 constexpr std::size_t NumMeanFresnelKernels(Normals normals) {
   return kModelFamilies[static_cast<std::size_t>(normals)].mean_fresnel[0].high > 0
@@ -738,7 +766,7 @@ constexpr std::size_t FamilyOf(std::size_t kernel, const FirstKernels& first) {
 }
 
 // Component kernels, then distributions of normals, then rough dielectrics, then opaque surfaces, then
-// diffuse ones, then means over visible normals.
+// ones of facets that scatter, then means over visible normals.
 inline constexpr std::size_t kFirstDielectricKernel = kNumComponentKernels + kNumNormalKernels;
 inline constexpr FirstKernels kFirstDielectricKernels =
     MakeFirstKernels(kFirstDielectricKernel, NumDielectricQuantities);
@@ -771,18 +799,12 @@ constexpr ModelKernelPlace PlaceOfModelKernel(const FirstKernels& first, std::si
   return {static_cast<Normals>(family), kernel - first[family]};
 }
 
-// By kDielectricQuantities, kDiffuseQuantities and kMeanFresnelQuantities.
+// By kDielectricQuantities and kMeanFresnelQuantities.
 constexpr std::size_t DielectricKernel(Normals normals, std::size_t quantity) {
   return ModelKernel(kFirstDielectricKernels, normals, quantity);
 }
 constexpr ModelKernelPlace PlaceOfDielectricKernel(std::size_t kernel) {
   return PlaceOfModelKernel(kFirstDielectricKernels, kernel);
-}
-constexpr std::size_t DiffuseKernel(Normals normals, std::size_t quantity) {
-  return ModelKernel(kFirstDiffuseKernels, normals, quantity);
-}
-constexpr ModelKernelPlace PlaceOfDiffuseKernel(std::size_t kernel) {
-  return PlaceOfModelKernel(kFirstDiffuseKernels, kernel);
 }
 constexpr std::size_t MeanFresnelKernel(Normals normals, std::size_t quantity) {
   return ModelKernel(kFirstMeanFresnelKernels, normals, quantity);
@@ -805,6 +827,21 @@ constexpr ReflectorKernelPlace PlaceOfReflectorKernel(std::size_t kernel) {
   const auto [normals, i] = PlaceOfModelKernel(kFirstReflectorKernels, kernel);
   const std::size_t count = NumReflectorQuantities(normals);
   return {normals, static_cast<Reflector>(i / count), i % count};
+}
+
+// A kernel of facets that scatter: its distribution of normals, scatterer and place in kDiffuseQuantities.
+struct DiffuseKernelPlace {
+  Normals normals;
+  Scatterer scatterer;
+  std::size_t quantity;
+};
+constexpr std::size_t DiffuseKernel(const DiffuseKernelPlace& place) {
+  return ModelKernel(kFirstDiffuseKernels, place.normals,
+                     static_cast<std::size_t>(place.scatterer) * kNumDiffuseQuantities + place.quantity);
+}
+constexpr DiffuseKernelPlace PlaceOfDiffuseKernel(std::size_t kernel) {
+  const auto [normals, i] = PlaceOfModelKernel(kFirstDiffuseKernels, kernel);
+  return {normals, static_cast<Scatterer>(i / kNumDiffuseQuantities), i % kNumDiffuseQuantities};
 }
 
 // A kernel of a distribution of normals: its place in kNormalRows, and its kind of roughness.
@@ -944,8 +981,10 @@ inline constexpr auto kReflectorText = MakeReflectorText();
 constexpr auto MakeDiffuseText() {
   std::array<ModelText, kNumDiffuseKernels> text{};
   for (std::size_t i = 0; i < kNumDiffuseKernels; ++i) {
-    const ModelKernelPlace place = PlaceOfDiffuseKernel(kFirstDiffuseKernel + i);
-    text[i] = MakeModelText("rough_diffuse", " | order", "",
+    const DiffuseKernelPlace place = PlaceOfDiffuseKernel(kFirstDiffuseKernel + i);
+    const ScattererRow& scatterer = kScatterers[static_cast<std::size_t>(place.scatterer)];
+    text[i] = MakeModelText(scatterer.id, JoinedText(scatterer.parameters, " | order").view(),
+                            JoinedText("; ", scatterer.source).view(),
                             kModelFamilies[static_cast<std::size_t>(place.normals)],
                             kDiffuseQuantities[place.quantity]);
   }
@@ -1009,9 +1048,11 @@ constexpr std::array<Kernel, kNumKernels> MakeKernels() {
                                                         : family.reflector_sample[reflector]);
   }
   for (std::size_t i = 0; i < kNumDiffuseKernels; ++i) {
-    const ModelKernelPlace place = PlaceOfDiffuseKernel(kFirstDiffuseKernel + i);
+    const DiffuseKernelPlace place = PlaceOfDiffuseKernel(kFirstDiffuseKernel + i);
+    const std::size_t scatterer = static_cast<std::size_t>(place.scatterer);
     add_model(kFirstDiffuseKernel + i, kDiffuseText[i], kDiffuseQuantities[place.quantity], false,
-              kModelFamilies[static_cast<std::size_t>(place.normals)].diffuse);
+              kModelFamilies[static_cast<std::size_t>(place.normals)].diffuse[scatterer]);
+    if (place.quantity == 0) kernels[kFirstDiffuseKernel + i].note = kScatterers[scatterer].note;
   }
   for (std::size_t i = 0; i < kNumMeanFresnelKernels; ++i) {
     const ModelKernelPlace place = PlaceOfMeanFresnelKernel(kFirstMeanFresnelKernel + i);

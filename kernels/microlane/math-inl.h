@@ -95,6 +95,16 @@ HWY_INLINE Vec<D> Div(D d, Vec<D> a, Vec<D> b) {
   }
 }
 
+// The same with kFast's error taken to a rounding or two.
+template <Accuracy A, class D>
+HWY_INLINE Vec<D> RefinedDiv(D d, Vec<D> a, Vec<D> b) {
+  if constexpr (A == Accuracy::kFast) {
+    return hn::Mul(a, RefinedReciprocal<A>(d, b));
+  } else {
+    return Div<A>(d, a, b);
+  }
+}
+
 // value where `invalid` does not hold, else 0. Tests are written so that NaN is never `invalid`.
 template <class M, class V>
 HWY_INLINE V ZeroIf(M invalid, V value) {

@@ -9,6 +9,7 @@
 #include "microlane/ggx.h"                  // IWYU pragma: export
 #include "microlane/half_vector.h"          // IWYU pragma: export
 #include "microlane/half_vector_density.h"  // IWYU pragma: export
+#include "microlane/interfaced.h"           // IWYU pragma: export
 #include "microlane/kernel_list.h"          // IWYU pragma: export
 #include "microlane/masking.h"              // IWYU pragma: export
 #include "microlane/material.h"             // IWYU pragma: export

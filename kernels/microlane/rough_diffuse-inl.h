@@ -1,9 +1,10 @@
-// Diffuse microfacets in lanes (Heitz 2014 Eq. 31), over a distribution of normals and its radius, by the
-// nodes of quadrature.h.
+// Facets that scatter light (Heitz 2014 Eq. 31, Meneveaux 2015 Eq. 12) in lanes, over a distribution of
+// normals and its radius, by the nodes of quadrature.h.
 //
 // With U = (x, y, 1) of a slope (x, y) of unit roughness, A = (alpha_x wi.x, alpha_y wi.y, |wi.z|) and B of
 // wo likewise, wi.m = A.U / |M|, M = (alpha_x x, alpha_y y, 1), and D(m) dm = |M| P(x, y) dx dy, so that
-//   f |cos(theta_o)| = G2 / (pi |wi.z|) Int max(0, A.U) max(0, B.U) / |M| P dx dy.
+//   f |cos(theta_o)| = G2 / (pi |wi.z|) Int max(0, A.U) max(0, B.U) / |M| s P dx dy,
+// where s of (wi.m, wo.m) is what the facets make of it, 1 of white Lambertian ones.
 // Sums over the nodes need no clamp: along azimuth e, wi's edge is at 1/K, K = -A.e/A.z >= 0, where B.U =
 // (A.z B.e
 // - B.z A.e) / -A.e, and every factor below is positive.
@@ -65,6 +66,29 @@ HWY_INLINE Vec<D> AddOverSqrt(D d, Vec<D> sum, Vec<D> x, Vec<D> y) {
   }
 }
 
+// What facets make of it, 1: `facet` is what a scatterer is made of, none here. With a = A.U and b = B.U on a
+// common scale on which |M|^2 is m2.
+struct LambertianFacets {
+  // What sums below are to be multiplied by.
+  static constexpr double kScale = 1;
+
+  // sum + x s/sqrt(m2).
+  template <Accuracy A, class D>
+  static HWY_INLINE Vec<D> Add(D d, Vec<D> sum, Vec<D> x, Vec<D> m2, Vec<D>, Vec<D>) {
+    return AddOverSqrt<A>(d, sum, x, m2);
+  }
+  // sum + x s/(y sqrt(m2)).
+  template <Accuracy A, class D>
+  static HWY_INLINE Vec<D> AddOver(D d, Vec<D> sum, Vec<D> x, Vec<D> y, Vec<D> m2, Vec<D>, Vec<D>) {
+    if constexpr (A == Accuracy::kFast) {
+      return hn::MulAdd(hn::Mul(x, FastReciprocal(d, y)), FastReciprocalSqrt(d, m2), sum);
+    } else {
+      (void)d;
+      return hn::Add(sum, hn::Div(x, hn::Mul(y, hn::Sqrt(m2))));
+    }
+  }
+};
+
 // A distribution's radius: rows of the rule where the radius has no edge; and where it has, what EdgeTerms of
 // the azimuth along q, |q| = length, makes of z = A.z, falls = -A.q >= 0, across = A.z B.q - B.z A.q >= 0,
 // slope2 =
@@ -88,9 +112,9 @@ struct GgxRadius {
     half.Put(dd, kTerm2, hn::Mul(across, u));
   }
 
-  template <Accuracy A, class D>
+  template <class Facets, Accuracy A, class D, class... V>
   static HWY_INLINE Vec<D> EdgeSum(D d, const QuadratureTable<T<D>>& rule, const AzimuthTerms<D>& terms,
-                                   std::size_t azimuth, Vec<D> other_z) {
+                                   std::size_t azimuth, Vec<D> z, Vec<D> other_z, V... facet) {
     const T<D>* const radius = rule[QuadratureRow::kGgxRadius];
     const T<D>* const weight = rule[QuadratureRow::kGgxWeight];
     const Vec<D> s2 = terms(d, azimuth, kSlope2), l2 = terms(d, azimuth, kTerm0), one = Const(d, 1),
@@ -100,12 +124,8 @@ struct GgxRadius {
       const Vec<D> p = hn::Set(d, radius[j]), p2 = hn::Mul(p, p);
       const Vec<D> v = hn::MulAdd(p, h, one), v2 = hn::Mul(v, v);
       const Vec<D> n = hn::MulAdd(p2, l2, v2), m2 = hn::MulAdd(p2, s2, v2), n2 = hn::Mul(n, n);
-      const Vec<D> facing = hn::Mul(hn::MulAdd(p, g, other_z), hn::Set(d, weight[j]));
-      if constexpr (A == Accuracy::kFast) {
-        sum = hn::MulAdd(hn::Mul(facing, FastReciprocal(d, n2)), FastReciprocalSqrt(d, m2), sum);
-      } else {
-        sum = hn::Add(sum, hn::Div(facing, hn::Mul(n2, hn::Sqrt(m2))));
-      }
+      const Vec<D> other = hn::MulAdd(p, g, other_z), facing = hn::Mul(other, hn::Set(d, weight[j]));
+      sum = Facets::template AddOver<A>(d, sum, facing, n2, m2, z, other, facet...);
     }
     return sum;
   }
@@ -131,9 +151,9 @@ struct BeckmannRadius {
     half.Put(dd, kTerm2, hn::MulAdd(other_z, a, hn::Mul(u, across)));
   }
 
-  template <Accuracy A, class D>
+  template <class Facets, Accuracy A, class D, class... V>
   static HWY_INLINE Vec<D> EdgeSum(D d, const QuadratureTable<T<D>>& rule, const AzimuthTerms<D>& terms,
-                                   std::size_t azimuth, Vec<D> other_z) {
+                                   std::size_t azimuth, Vec<D> z, Vec<D> other_z, V... facet) {
     const T<D>* const part = rule[QuadratureRow::kBeckmannPart];
     const T<D>* const rest = rule[QuadratureRow::kBeckmannRest];
     const T<D>* const weight = rule[QuadratureRow::kBeckmannWeight];
@@ -142,27 +162,29 @@ struct BeckmannRadius {
     Vec<D> sum = zero;
     for (std::size_t j = 0; j < rule.order; ++j) {
       const Vec<D> t = hn::Set(d, part[j]), t2 = hn::Mul(t, t), w = hn::Set(d, rest[j]);
-      const Vec<D> facing = hn::Mul(hn::MulAdd(t, a, w), hn::MulAdd(t, b, hn::Mul(w, other_z)));
+      const Vec<D> one_facing = hn::MulAdd(t, a, w), other = hn::MulAdd(t, b, hn::Mul(w, other_z));
       const Vec<D> density = ExpTimes<A>(d, hn::Neg(hn::Mul(t2, c2)), zero, hn::Set(d, weight[j]));
-      sum = AddOverSqrt<A>(d, sum, hn::Mul(facing, density), hn::MulAdd(t2, s2, one));
+      sum = Facets::template Add<A>(d, sum, hn::Mul(hn::Mul(one_facing, other), density),
+                                    hn::MulAdd(t2, s2, one), hn::Mul(z, one_facing), other, facet...);
     }
     return sum;
   }
 };
 
 // Where the radius has no edge: A.U and B.U from the rows' r.
-template <class Radius, Accuracy A, class D>
+template <class Radius, class Facets, Accuracy A, class D, class... V>
 HWY_INLINE Vec<D> FreeSum(D d, const QuadratureTable<T<D>>& rule, const AzimuthTerms<D>& terms,
-                          std::size_t azimuth, Vec<D> zi, Vec<D> zo) {
+                          std::size_t azimuth, Vec<D> zi, Vec<D> zo, V... facet) {
   const T<D>* const radius = rule[Radius::kRadius];
   const T<D>* const weight = rule[Radius::kFree];
   const Vec<D> s2 = terms(d, azimuth, kSlope2), a = terms(d, azimuth, kTerm0), b = terms(d, azimuth, kTerm1);
   Vec<D> sum = hn::Zero(d);
   for (std::size_t j = 0; j < rule.order; ++j) {
     const Vec<D> r = hn::Set(d, radius[j]);
-    const Vec<D> facing = hn::Mul(hn::MulAdd(r, a, zi), hn::MulAdd(r, b, zo));
+    const Vec<D> one = hn::MulAdd(r, a, zi), other = hn::MulAdd(r, b, zo);
     const Vec<D> m2 = hn::MulAdd(hn::Mul(r, r), s2, Const(d, 1));
-    sum = AddOverSqrt<A>(d, sum, hn::Mul(facing, hn::Set(d, weight[j])), m2);
+    sum = Facets::template Add<A>(d, sum, hn::Mul(hn::Mul(one, other), hn::Set(d, weight[j])), m2, one, other,
+                                  facet...);
   }
   return sum;
 }
@@ -276,10 +298,10 @@ HWY_NOINLINE void MakeAzimuths(D d, const QuadratureRule& rule, const T<D> (*in)
   }
 }
 
-// f |cos(theta_o)| of white diffuse facets.
-template <class Dist, class Radius, JointMasking kG, Accuracy A, class D>
+// f |cos(theta_o)|.
+template <class Dist, class Radius, class Facets, JointMasking kG, Accuracy A, class D, class... V>
 HWY_INLINE Vec<D> RoughDiffuse(D d, const QuadratureRule& rule, Vec<D> ix, Vec<D> iy, Vec<D> iz, Vec<D> ox,
-                               Vec<D> oy, Vec<D> oz, Vec<D> alpha_x, Vec<D> alpha_y) {
+                               Vec<D> oy, Vec<D> oz, Vec<D> alpha_x, Vec<D> alpha_y, V... facet) {
   constexpr std::size_t kLanes = hn::MaxLanes(D());
   const Vec<D> zero = hn::Zero(d), zi = hn::Abs(iz), zo = FlipSign(d, oz, iz);
   HWY_ALIGN T<D> in[8][kLanes];
@@ -299,13 +321,16 @@ HWY_INLINE Vec<D> RoughDiffuse(D d, const QuadratureRule& rule, Vec<D> ix, Vec<D
   const std::size_t order = table.order;
   Vec<D> sum = zero, tail = zero;
   for (std::size_t i = 0; i < order; ++i) {
-    AddTerm<A>(sum, tail, terms(d, i, kAzimuthWeight), FreeSum<Radius, A>(d, table, terms, i, zi, zo));
+    AddTerm<A>(sum, tail, terms(d, i, kAzimuthWeight),
+               FreeSum<Radius, Facets, A>(d, table, terms, i, zi, zo, facet...));
   }
   for (std::size_t i = order; i < 2 * order; ++i) {
-    AddTerm<A>(sum, tail, terms(d, i, kAzimuthWeight), Radius::template EdgeSum<A>(d, table, terms, i, zo));
+    AddTerm<A>(sum, tail, terms(d, i, kAzimuthWeight),
+               Radius::template EdgeSum<Facets, A>(d, table, terms, i, zi, zo, facet...));
   }
   for (std::size_t i = 2 * order; i < 3 * order; ++i) {
-    AddTerm<A>(sum, tail, terms(d, i, kAzimuthWeight), Radius::template EdgeSum<A>(d, table, terms, i, zi));
+    AddTerm<A>(sum, tail, terms(d, i, kAzimuthWeight),
+               Radius::template EdgeSum<Facets, A>(d, table, terms, i, zo, zi, facet...));
   }
   sum = hn::Add(sum, tail);
 
@@ -325,7 +350,7 @@ HWY_INLINE Vec<D> RoughDiffuse(D d, const QuadratureRule& rule, Vec<D> ix, Vec<D
   const Vec<D> masking = A == Accuracy::kFast ? hn::Mul(numerator, RefinedReciprocal<A>(d, denominator))
                                               : hn::Div(numerator, denominator);
   const auto outside = hn::Or(hn::Le(zi, zero), hn::Le(zo, zero));
-  return ZeroIf(outside, hn::Mul(hn::Mul(sum, Const(d, 1 / (kPi * kPi))), masking));
+  return ZeroIf(outside, hn::Mul(hn::Mul(sum, Const(d, Facets::kScale / (kPi * kPi))), masking));
 }
 
 }  // namespace

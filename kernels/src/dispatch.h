@@ -61,13 +61,14 @@ const FamilyFunction* MaskingTable();
 const FamilyFunction* RoughnessTable();
 const FamilyFunction* AlbedoLookupTable();
 const FamilyFunction* CoupledTable();
+const FamilyFunction* InterfacedTable();
 template <Normals kNormals>
 const FamilyFunction* NormalsTable();
 template <Normals kNormals>
 const FamilyFunction* RoughDielectricTable();
 template <Normals kNormals>
 const FamilyFunction* RoughReflectorTable();
-template <Normals kNormals>
+template <Normals kNormals, Scatterer kScatterer>
 const FamilyFunction* RoughDiffuseTable();
 template <Normals kNormals>
 const FamilyFunction* MeanFresnelTable();
@@ -94,9 +95,13 @@ const FamilyFunction* RoughReflectorTable<Normals::kBeckmann>();
 template <>
 const FamilyFunction* RoughReflectorTable<Normals::kPhong>();
 template <>
-const FamilyFunction* RoughDiffuseTable<Normals::kGgx>();
+const FamilyFunction* RoughDiffuseTable<Normals::kGgx, Scatterer::kLambertian>();
 template <>
-const FamilyFunction* RoughDiffuseTable<Normals::kBeckmann>();
+const FamilyFunction* RoughDiffuseTable<Normals::kBeckmann, Scatterer::kLambertian>();
+template <>
+const FamilyFunction* RoughDiffuseTable<Normals::kGgx, Scatterer::kInterfaced>();
+template <>
+const FamilyFunction* RoughDiffuseTable<Normals::kBeckmann, Scatterer::kInterfaced>();
 template <>
 const FamilyFunction* MeanFresnelTable<Normals::kGgx>();
 template <>

@@ -41,9 +41,21 @@ struct SchlickKernel {
   }
 };
 
+template <DiffuseSide kSide>
+struct DiffuseKernelOf {
+  static constexpr std::string_view kId =
+      kSide == DiffuseSide::kExternal ? "fresnel.diffuse_external" : "fresnel.diffuse_internal";
+  template <Accuracy A, class D>
+  static HWY_INLINE void Eval(D d, const Options<D>&, const Outputs<D>& out, Vec<D> eta) {
+    Vec<D> unused;
+    Precisely<DiffuseFresnelOp<kSide>, A>(d, out.v0, unused, eta);
+  }
+};
+
 FamilyCode FamilyOnTarget() {
   return Family<FresnelKernel<FresnelPart::kUnpolarised>, FresnelKernel<FresnelPart::kTransmittance>,
                 FresnelKernel<FresnelPart::kS>, FresnelKernel<FresnelPart::kP>, ConductorKernel,
+                DiffuseKernelOf<DiffuseSide::kExternal>, DiffuseKernelOf<DiffuseSide::kInternal>,
                 SchlickKernel>();
 }
 
@@ -115,6 +127,22 @@ void Schlick(std::size_t n, const T* cos_i, ParameterOf<T> f0, T* reflectance, A
   OfCosine<KernelIndex("fresnel.schlick")>(n, cos_i, f0, reflectance, accuracy);
 }
 
+template <class T>
+void DiffuseExternal(std::size_t n, const T* eta, T* reflectance, Accuracy accuracy) {
+  CallBuilder<T>()
+      .In(eta)
+      .Out(reflectance)
+      .template Run<KernelIndex("fresnel.diffuse_external")>(FresnelTable(), accuracy, n);
+}
+
+template <class T>
+void DiffuseInternal(std::size_t n, const T* eta, T* reflectance, Accuracy accuracy) {
+  CallBuilder<T>()
+      .In(eta)
+      .Out(reflectance)
+      .template Run<KernelIndex("fresnel.diffuse_internal")>(FresnelTable(), accuracy, n);
+}
+
 #define MICROLANE_INSTANTIATE(T)                                                                        \
   template void Dielectric(std::size_t, const T*, ParameterOf<T>, T*, Accuracy);                        \
   template void DielectricTransmittance(std::size_t, const T*, ParameterOf<T>, T*, Accuracy);           \
@@ -123,6 +151,8 @@ void Schlick(std::size_t n, const T* cos_i, ParameterOf<T> f0, T* reflectance, A
   template void Conductor(std::size_t, const T*, ParameterOf<T>, ParameterOf<T>, T*, Accuracy);         \
   template void Conductor(std::size_t, const T*, std::size_t, const Parameter<T>*, const Parameter<T>*, \
                           T* const*, Accuracy);                                                         \
+  template void DiffuseExternal(std::size_t, const T*, T*, Accuracy);                                   \
+  template void DiffuseInternal(std::size_t, const T*, T*, Accuracy);                                   \
   template void Schlick(std::size_t, const T*, ParameterOf<T>, T*, Accuracy);
 MICROLANE_INSTANTIATE(float)
 MICROLANE_INSTANTIATE(double)

@@ -34,8 +34,14 @@ const FamilyFunction* TableOf(std::size_t kernel) {
                                                                      : MeanFresnelTable<Normals::kBeckmann>();
   }
   if (kernel >= kFirstDiffuseKernel) {
-    return PlaceOfDiffuseKernel(kernel).normals == Normals::kGgx ? RoughDiffuseTable<Normals::kGgx>()
-                                                                 : RoughDiffuseTable<Normals::kBeckmann>();
+    const DiffuseKernelPlace place = PlaceOfDiffuseKernel(kernel);
+    const bool ggx = place.normals == Normals::kGgx;
+    if (place.scatterer == Scatterer::kInterfaced) {
+      return ggx ? RoughDiffuseTable<Normals::kGgx, Scatterer::kInterfaced>()
+                 : RoughDiffuseTable<Normals::kBeckmann, Scatterer::kInterfaced>();
+    }
+    return ggx ? RoughDiffuseTable<Normals::kGgx, Scatterer::kLambertian>()
+               : RoughDiffuseTable<Normals::kBeckmann, Scatterer::kLambertian>();
   }
   if (kernel >= kFirstReflectorKernel) {
     return OfNormals(static_cast<std::size_t>(PlaceOfReflectorKernel(kernel).normals), families,
@@ -68,6 +74,7 @@ const FamilyFunction* TableOf(std::size_t kernel) {
          : family == "roughness"           ? RoughnessTable()
          : family == "albedo"              ? AlbedoLookupTable()
          : family == "coupled"             ? CoupledTable()
+         : family == "interfaced"          ? InterfacedTable()
          : family == "half_vector_density" ? HalfVectorDensityTable()
                                            : HalfVectorTable();
 }

@@ -10,7 +10,9 @@ namespace microlane {
 namespace HWY_NAMESPACE {
 namespace {
 
-FamilyCode FamilyOnTarget() { return RoughDiffuseFamily<Beckmann, BeckmannRadius, Normals::kBeckmann>(); }
+FamilyCode FamilyOnTarget() {
+  return RoughDiffuseFamily<Beckmann, BeckmannRadius, Normals::kBeckmann, Scatterer::kLambertian>();
+}
 
 }  // namespace
 }  // namespace HWY_NAMESPACE
@@ -22,7 +24,7 @@ namespace microlane {
 
 HWY_EXPORT(FamilyOnTarget);
 template <>
-const FamilyFunction* RoughDiffuseTable<Normals::kBeckmann>() {
+const FamilyFunction* RoughDiffuseTable<Normals::kBeckmann, Scatterer::kLambertian>() {
   return HWY_DISPATCH_TABLE(FamilyOnTarget);
 }
 template class RoughDiffuseLanes<Normals::kBeckmann, float>;

@@ -18,11 +18,11 @@ void RoughDiffuseLanes<kNormals, T>::Eval(std::size_t n, const Directions<T>& wi
                 kDiffuseQuantities[1].joint == DielectricQuantity::kSeparable);
   CallBuilder<T> call;
   call.In(wi).In(wo).In(roughness.alpha_x).In(roughness.alpha_y).Out(f_cos).In(rule);
-  const FamilyFunction* table = RoughDiffuseTable<kNormals>();
+  const FamilyFunction* table = RoughDiffuseTable<kNormals, Scatterer::kLambertian>();
   if (masking == JointMasking::kSeparable) {
-    call.template Run<DiffuseKernel(kNormals, 1)>(table, accuracy, n);
+    call.template Run<DiffuseKernel({kNormals, Scatterer::kLambertian, 1})>(table, accuracy, n);
   } else {
-    call.template Run<DiffuseKernel(kNormals, 0)>(table, accuracy, n);
+    call.template Run<DiffuseKernel({kNormals, Scatterer::kLambertian, 0})>(table, accuracy, n);
   }
 }
 

@@ -1,4 +1,4 @@
-// Batch kernels of diffuse rough surfaces, over a distribution policy and the kernel list's quantities.
+// Batch kernels of facets that scatter, over a distribution policy and the kernel list's quantities.
 #if defined(MICROLANE_SRC_ROUGH_DIFFUSE_KERNELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef MICROLANE_SRC_ROUGH_DIFFUSE_KERNELS_INL_H_
 #undef MICROLANE_SRC_ROUGH_DIFFUSE_KERNELS_INL_H_
@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "microlane/interfaced-inl.h"
 #include "microlane/rough_diffuse-inl.h"
 #include "src/batch-inl.h"
 
@@ -18,27 +19,34 @@ namespace microlane {
 namespace HWY_NAMESPACE {
 namespace {
 
-template <class Dist, class Radius, Normals kNormals, std::size_t kQuantity>
+template <class Dist, class Radius, std::size_t kKernel>
 struct RoughDiffuseKernel {
-  static constexpr std::string_view kId = kKernels[DiffuseKernel(kNormals, kQuantity)].id;
-  static constexpr JointMasking kG = kDiffuseQuantities[kQuantity].joint == DielectricQuantity::kSeparable
-                                         ? JointMasking::kSeparable
-                                         : JointMasking::kHeightCorrelated;
+  static constexpr DiffuseKernelPlace kPlace = PlaceOfDiffuseKernel(kKernel);
+  static constexpr std::string_view kId = kKernels[kKernel].id;
+  static constexpr JointMasking kG =
+      kDiffuseQuantities[kPlace.quantity].joint == DielectricQuantity::kSeparable
+          ? JointMasking::kSeparable
+          : JointMasking::kHeightCorrelated;
 
   template <Accuracy A, class D, class... V>
   static HWY_INLINE void Eval(D d, const Options<D>& options, const Outputs<D>& out, V... v) {
-    out.v0 =
-        RoughDiffuse<Dist, Radius, kG, A>(d, static_cast<const QuadratureRule&>(*options.prepared), v...);
+    const QuadratureRule& rule = static_cast<const QuadratureRule&>(*options.prepared);
+    if constexpr (kPlace.scatterer == Scatterer::kInterfaced) {
+      out.v0 = InterfacedBody<Dist, Radius, kG, A>(d, rule, v...);
+    } else {
+      out.v0 = RoughDiffuse<Dist, Radius, LambertianFacets, kG, A>(d, rule, v...);
+    }
   }
 };
 
-template <class Dist, class Radius, Normals kNormals, std::size_t... kQuantity>
+template <class Dist, class Radius, std::size_t kFirst, std::size_t... kQuantity>
 FamilyCode RoughDiffuseFamily(std::index_sequence<kQuantity...>) {
-  return Family<RoughDiffuseKernel<Dist, Radius, kNormals, kQuantity>...>();
+  return Family<RoughDiffuseKernel<Dist, Radius, kFirst + kQuantity>...>();
 }
-template <class Dist, class Radius, Normals kNormals>
+template <class Dist, class Radius, Normals kNormals, Scatterer kScatterer>
 FamilyCode RoughDiffuseFamily() {
-  return RoughDiffuseFamily<Dist, Radius, kNormals>(std::make_index_sequence<kNumDiffuseQuantities>());
+  return RoughDiffuseFamily<Dist, Radius, DiffuseKernel({kNormals, kScatterer, 0})>(
+      std::make_index_sequence<kNumDiffuseQuantities>());
 }
 
 }  // namespace

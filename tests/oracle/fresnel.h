@@ -77,6 +77,24 @@ inline Real FresnelConductor(const Real& cos_i, const Real& n, const Real& kappa
   return (s + p) / 2;
 }
 
+// Molenaar's r_e, Meneveaux 2015, Eq. 10, which is of n >= 1; from the denser side it is r_i of 1/n.
+inline Real DiffuseFresnelExternal(const Real& n) {
+  if (n == 1) return 0;
+  if (n < 1) return 1 - (1 - DiffuseFresnelExternal(1 / n)) * n * n;
+  const Real n2 = n * n, n4 = n2 * n2;
+  return Real(1) / 2 - 2 * n * n2 * (n2 + 2 * n - 1) / ((n2 + 1) * (n4 - 1)) +
+         (n - 1) * (3 * n + 1) / (6 * Square(n + 1)) +
+         8 * n4 * (n4 + 1) / ((n2 + 1) * Square(n4 - 1)) * log(n) +
+         n2 * Square(n2 - 1) / (Square(n2 + 1) * (n2 + 1)) * log((n - 1) / (n + 1));
+}
+// r_i, Meneveaux 2015, Eq. 9, by n^2 (1 - r_i) = 1 - r_e.
+inline Real DiffuseFresnelInternal(const Real& n) { return 1 - (1 - DiffuseFresnelExternal(n)) / (n * n); }
+
+// k/(n^2 (1 - k r_i)), of Meneveaux 2015, Eq. 8.
+inline Real BodyAlbedo(const Real& n, const Real& k) {
+  return k / (n * n * (1 - k * DiffuseFresnelInternal(n)));
+}
+
 // f0 + (1 - f0)(1 - c)^5.
 inline Real FresnelSchlick(const Real& cos_i, const Real& f0) {
   const Real x = 1 - abs(cos_i);

@@ -342,14 +342,25 @@ void OfReflector(Call& call) {
   }
 }
 
-// A kernel of a diffuse surface.
+template <Scatterer kScatterer>
+auto MakeFacet(const Real* in) {
+  if constexpr (kScatterer == Scatterer::kInterfaced) {
+    return InterfacedFacet{in[0], in[1]};
+  } else {
+    return LambertianFacet{};
+  }
+}
+
+// A kernel of facets that scatter.
 template <std::size_t kKernel>
 void OfDiffuse(Call& call) {
-  constexpr ModelKernelPlace place = PlaceOfDiffuseKernel(kKernel);
+  constexpr DiffuseKernelPlace place = PlaceOfDiffuseKernel(kKernel);
   constexpr Names inputs = Split(kKernels[kKernel].inputs);
   const auto normals = MakeNormals<place.normals, ModelRoughness(place.normals)>(call.in + inputs.per_lane);
-  const RoughDiffuse<std::remove_const_t<decltype(normals)>> surface{
-      normals, static_cast<int>(call.in[inputs.columns]), MaskingOf(kDiffuseQuantities[place.quantity])};
+  const auto facet = MakeFacet<place.scatterer>(call.in + 8);
+  const RoughDiffuse<std::remove_const_t<decltype(normals)>, std::remove_const_t<decltype(facet)>> surface{
+      normals, facet, static_cast<int>(call.in[inputs.columns]),
+      MaskingOf(kDiffuseQuantities[place.quantity])};
   call.out[0] = surface.EvalCos(Direction(call.in), Direction(call.in + 3));
 }
 
@@ -456,6 +467,14 @@ constexpr Entry kEntries[] = {
 
     {"fresnel.conductor",
      [](Call& call) { call.out[0] = FresnelConductor(call.in[0], call.in[1], call.in[2]); }},
+    {"fresnel.diffuse_external", [](Call& call) { call.out[0] = DiffuseFresnelExternal(call.in[0]); }},
+    {"fresnel.diffuse_internal", [](Call& call) { call.out[0] = DiffuseFresnelInternal(call.in[0]); }},
+    {"interfaced.facet_body",
+     [](Call& call) {
+       const Real &cos_i = call.in[0], &cos_o = call.in[1];
+       if (!(cos_i > 0 && cos_o > 0)) return void(call.out[0] = 0);
+       call.out[0] = InterfacedFacet{call.in[2], call.in[3]}(cos_i, cos_o) / Pi();
+     }},
     {"fresnel.schlick", [](Call& call) { call.out[0] = FresnelSchlick(call.in[0], call.in[1]); }},
 
     {"half_vector.reflection",

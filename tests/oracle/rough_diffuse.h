@@ -1,5 +1,5 @@
-// Diffuse microfacets: Heitz 2014, Eq. 31, summed over the normals of kernels/microlane/quadrature.h, each
-// with the solid angle that it stands for.
+// Facets that scatter: Heitz 2014, Eq. 31, and Meneveaux 2015, Eq. 12, summed over the normals of
+// kernels/microlane/quadrature.h, each with the solid angle that it stands for.
 #ifndef MICROLANE_TESTS_ORACLE_ROUGH_DIFFUSE_H_
 #define MICROLANE_TESTS_ORACLE_ROUGH_DIFFUSE_H_
 
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "oracle/beckmann.h"
+#include "oracle/fresnel.h"
 #include "oracle/ggx.h"
 #include "oracle/real.h"
 #include "oracle/rough_dielectric.h"
@@ -57,13 +58,26 @@ inline RadiusNode RadiusAt(const Beckmann&, int order, const LegendreNode& node,
   return {node.t * end, end};
 }
 
-template <class Distribution>
+// What a facet scatters, as a part of what a white Lambertian does.
+struct LambertianFacet {
+  Real operator()(const Real&, const Real&) const { return 1; }
+};
+struct InterfacedFacet {
+  Real n, k;
+
+  Real operator()(const Real& cos_i, const Real& cos_o) const {
+    return BodyAlbedo(n, k) * (1 - FresnelDielectric(cos_i, n)) * (1 - FresnelDielectric(cos_o, n));
+  }
+};
+
+template <class Distribution, class Facet>
 struct RoughDiffuse {
   Distribution distribution;
+  Facet facet;
   int order;
   Masking masking = Masking::kCorrelated;
 
-  // f |cos(theta_o)| of albedo 1.
+  // f |cos(theta_o)|.
   Real EvalCos(Vec wi, Vec wo) const {
     if (wi.z == 0 || wo.z == 0 || Sign(wi.z) != Sign(wo.z)) return 0;
     wi.z = abs(wi.z);
@@ -76,7 +90,7 @@ struct RoughDiffuse {
   static Vec Unit(const Vec& a, const Vec& otherwise) { return IsZero(a) ? otherwise : Normalized(a); }
   static Vec TurnedLeft(const Vec& a) { return {-a.y, a.x, 0}; }
 
-  // Int <wi.m> <wo.m> D(m) dm.
+  // Int <wi.m> <wo.m> facet D(m) dm.
   Real Integral(const Vec& wi, const Vec& wo) const {
     const Real &alpha_x = distribution.alpha.alpha_x, &alpha_y = distribution.alpha.alpha_y;
     const Vec a{alpha_x * wi.x, alpha_y * wi.y, 0}, b{alpha_x * wo.x, alpha_y * wo.y, 0};
@@ -106,7 +120,8 @@ struct RoughDiffuse {
           const Vec m = Normalized({alpha_x * at.r * e.x, alpha_y * at.r * e.y, 1});
           const Real solid_angle =
               width * radius.weight * at.r * at.slope * alpha_x * alpha_y * m.z * m.z * m.z;
-          sum += Dot(wi, m) * Dot(wo, m) * distribution.D(m) * solid_angle;
+          const Real cos_i = Dot(wi, m), cos_o = Dot(wo, m);
+          sum += cos_i * cos_o * facet(cos_i, cos_o) * distribution.D(m) * solid_angle;
         }
       }
     };

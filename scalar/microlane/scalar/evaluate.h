@@ -252,9 +252,20 @@ void RunReflector(const Real* in, Real* out, Transport) {
   }
 }
 
-template <Masking masking, template <class> class Distribution, class Real>
-RoughDiffuse<Distribution, Real, masking> MakeDiffuse(const Distribution<Real>& distribution, int order) {
-  return {distribution, order};
+template <Masking masking, template <class> class Distribution, class Real, class Facet>
+RoughDiffuse<Distribution, Real, masking, Facet> MakeDiffuse(const Distribution<Real>& distribution,
+                                                             const Facet& facet, int order) {
+  return {distribution, facet, order};
+}
+
+template <Scatterer kScatterer, class Real>
+auto MakeFacet(const Real* in) {
+  if constexpr (kScatterer == Scatterer::kInterfaced) {
+    return InterfacedFacet<Real>{in[0], in[1]};
+  } else {
+    (void)in;
+    return LambertianFacet<Real>{};
+  }
 }
 
 // A whole number of those that rules have.
@@ -264,10 +275,10 @@ bool IsOrder(Real order) {
   return order >= Real(range.low) && order <= Real(range.high) && order == std::floor(order);
 }
 
-// A kernel of a diffuse surface. NaN where the order is none.
+// A kernel of facets that scatter. NaN where the order is none.
 template <class Real, std::size_t kKernel>
 void RunDiffuse(const Real* in, Real* out, Transport) {
-  constexpr ModelKernelPlace place = PlaceOfDiffuseKernel(kKernel);
+  constexpr DiffuseKernelPlace place = PlaceOfDiffuseKernel(kKernel);
   constexpr Names inputs = Split(kKernels[kKernel].inputs);
   constexpr Masking masking = MaskingOf(kDiffuseQuantities[place.quantity]);
   const Real order = in[inputs.columns];
@@ -276,7 +287,8 @@ void RunDiffuse(const Real* in, Real* out, Transport) {
     return;
   }
   const auto normals = MakeNormals<place.normals, ModelRoughness(place.normals)>(in + inputs.per_lane);
-  out[0] = MakeDiffuse<masking>(normals, static_cast<int>(order)).Eval(Load(in), Load(in + 3));
+  const auto facet = MakeFacet<place.scatterer>(in + 8);
+  out[0] = MakeDiffuse<masking>(normals, facet, static_cast<int>(order)).Eval(Load(in), Load(in + 3));
 }
 
 // A mean over visible normals. NaN where the order is none.
@@ -426,6 +438,12 @@ constexpr auto Entries() {
 
       Entry<Real>{"fresnel.conductor", [](const Real* in, Real* out,
                                           Transport) { out[0] = ConductorOfCosine(in[0], in[1], in[2]); }},
+      Entry<Real>{"fresnel.diffuse_external",
+                  [](const Real* in, Real* out, Transport) { out[0] = DiffuseExternal(in[0]); }},
+      Entry<Real>{"fresnel.diffuse_internal",
+                  [](const Real* in, Real* out, Transport) { out[0] = DiffuseInternal(in[0]); }},
+      Entry<Real>{"interfaced.facet_body", [](const Real* in, Real* out,
+                                              Transport) { out[0] = FacetBody(in[0], in[1], in[2], in[3]); }},
       Entry<Real>{"fresnel.schlick",
                   [](const Real* in, Real* out, Transport) { out[0] = SchlickOfCosine(in[0], in[1]); }},
 

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
+#include "microlane/scalar/legendre.h"
 #include "microlane/scalar/math.h"
 
 namespace microlane::scalar {
@@ -122,6 +124,51 @@ template <class Real>
 Real ConductorOfCosine(Real cos_i, Real n, Real kappa) {
   if (AnyNan(cos_i, n, kappa)) return kNan<Real>;
   return static_cast<Real>(FresnelConductor<Real>(Square(Wide<Real>(cos_i)), n, kappa).Reflectance());
+}
+
+// r_e of N = (1 + x)/(1 - x) >= 1, Int 2 c F dc over cosines c (Molenaar; Meneveaux 2015 Eq. 10). With c =
+// sqrt(k) sinh(t), k = N^2 - 1, g is sqrt(k) cosh(t), and Eq. 7 has (g - c)/(g + c) = exp(-2 t), c (g + c) =
+// k (exp(2 t) - 1)/2 and c (g - c) = k (1 - exp(-2 t))/2: nothing cancels as N goes to 1.
+inline double DiffuseFresnelOfRatio(double x) {
+  static const std::vector<LegendreNode> nodes = LegendreNodes(48);
+  if (x == 0) return 0;
+  const double k = 4 * x / Square(1 - x), end = std::min(20.0, -std::log(x) / 2);
+  double sum = 0;
+  for (const LegendreNode& node : nodes) {
+    const double t = end * node.t;
+    const double ratio = (k / 2 * std::expm1(2 * t) - 1) / (1 - k / 2 * std::expm1(-2 * t));
+    sum += node.weight * std::sinh(2 * t) * std::exp(-4 * t) * (1 + Square(ratio));
+  }
+  return k / 2 * end * sum;
+}
+
+template <class Real>
+Real Clamp(Real x, Real low, Real high) {
+  return x < low ? low : x > high ? high : x;
+}
+
+// r_e and r_i by n^2 (1 - r_i) = 1 - r_e; from the denser side r_e is r_i of 1/n.
+template <class Real>
+double DiffuseFresnel(Real eta, bool external) {
+  const double n = Clamp<Real>(eta, Real(0.25), 4), thin = DiffuseFresnelOfRatio(std::abs(n - 1) / (n + 1));
+  if ((n >= 1) == external) return thin;
+  return external ? (1 - n) * (1 + n) + n * n * thin : ((n - 1) * (n + 1) + thin) / (n * n);
+}
+
+template <class Real>
+Real DiffuseExternal(Real eta) {
+  return AnyNan(eta) ? kNan<Real> : static_cast<Real>(DiffuseFresnel(eta, true));
+}
+template <class Real>
+Real DiffuseInternal(Real eta) {
+  return AnyNan(eta) ? kNan<Real> : static_cast<Real>(DiffuseFresnel(eta, false));
+}
+
+// k/(n^2 (1 - k r_i)) of Meneveaux 2015 Eq. 8, as k/(n^2 (1 - k) + k (1 - r_e)).
+template <class Real>
+double BodyAlbedo(Real n_i, Real k_d) {
+  const double n = Clamp<Real>(n_i, 1, 4), k = Clamp<Real>(k_d, 0, 1);
+  return k / (n * n * (1 - k) + k * (1 - DiffuseFresnel(n, true)));
 }
 
 // f0 + (1 - f0) x^5 of x = 1 - |cos|, Schlick 1994.

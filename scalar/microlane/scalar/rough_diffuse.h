@@ -1,5 +1,5 @@
-// White diffuse microfacets, over any distribution of normals that gives its radius here: Heitz 2014 Eq. 31,
-// by the nodes that quadrature.h of the kernels describes.
+// Facets that scatter, over any distribution of normals that gives its radius here: Heitz 2014 Eq. 31 and
+// Meneveaux 2015 Eq. 12, by the nodes that quadrature.h of the kernels describes.
 #ifndef MICROLANE_SCALAR_ROUGH_DIFFUSE_H_
 #define MICROLANE_SCALAR_ROUGH_DIFFUSE_H_
 
@@ -9,39 +9,12 @@
 
 #include "microlane/scalar/beckmann.h"
 #include "microlane/scalar/direction.h"
+#include "microlane/scalar/fresnel.h"
 #include "microlane/scalar/ggx.h"
+#include "microlane/scalar/legendre.h"
 #include "microlane/scalar/smith.h"
 
 namespace microlane::scalar {
-
-// A node t of Gauss-Legendre on [0, 1], 1 - t with its own digits, and the weight.
-struct LegendreNode {
-  double t, rest, weight;
-};
-
-// The nodes in rising order. Newton's method on 1 - 2 t, of whose distance y from 1 the recurrence keeps the
-// digits.
-inline std::vector<LegendreNode> LegendreNodes(int order) {
-  std::vector<LegendreNode> nodes(static_cast<std::size_t>(order));
-  const double n = order;
-  for (int k = 0; k < (order + 1) / 2; ++k) {
-    double y = 2 * std::pow(std::sin(kPi<double> * (k + 0.75) / (2 * n + 1)), 2), before = 1;
-    for (int step = 0; step < 6; ++step) {
-      double p = 1, step_of_p = 0;
-      for (int j = 0; j < order; ++j) {
-        before = p;
-        step_of_p = (j * step_of_p - (2 * j + 1) * y * p) / (j + 1);
-        p += step_of_p;
-      }
-      y += p * y * (2 - y) / (n * (before - (1 - y) * p));
-    }
-    const double weight = y * (2 - y) / std::pow(n * before, 2);
-    if (2 * k + 1 == order) y = 1;
-    nodes[static_cast<std::size_t>(k)] = {y / 2, 1 - y / 2, weight};
-    nodes[static_cast<std::size_t>(order - 1 - k)] = {1 - y / 2, y / 2, weight};
-  }
-  return nodes;
-}
 
 // A slope's length r at unit roughness, seen along an azimuth whose edge is at 1/K: the density of slopes
 // there times pi r dr, and 1 - K r without cancellation.
@@ -68,18 +41,58 @@ RadiusNode RadiusAt(const Beckmann<Real>&, int order, const LegendreNode& node, 
   return {r, node.weight * end * r * std::exp(-r * r), rest};
 }
 
-template <template <class> class Distribution, class Real, Masking masking = Masking::kHeightCorrelated>
+// What a facet scatters, as a part of what a white Lambertian does: by wi.m and wo.m, and independent of
+// them.
+template <class Real>
+struct LambertianFacet {
+  double operator()(double, double) const { return 1; }
+  double Albedo() const { return 1; }
+};
+template <class Real>
+struct InterfacedFacet {
+  Real n, k;
+
+  double operator()(double cos_i, double cos_o) const {
+    using W = Wide<Real>;
+    const auto transmittance = [&](double c) {
+      return FresnelDielectric<Real>(Square(W(c)), Clamp<Real>(n, 1, 4)).Transmittance();
+    };
+    return transmittance(cos_i) * transmittance(cos_o);
+  }
+  double Albedo() const { return BodyAlbedo<Real>(n, k); }
+};
+template <class Real>
+bool IsNan(const LambertianFacet<Real>&) {
+  return false;
+}
+template <class Real>
+bool IsNan(const InterfacedFacet<Real>& facet) {
+  return AnyNan(facet.n, facet.k);
+}
+
+// Of one facet, or a flat surface: Meneveaux 2015 Eq. 8.
+template <class Real>
+Real FacetBody(Real cos_i, Real cos_o, Real n, Real k) {
+  if (AnyNan(cos_i, cos_o, n, k)) return kNan<Real>;
+  if (!(cos_i > 0 && cos_o > 0)) return 0;
+  const InterfacedFacet<Real> facet{n, k};
+  return static_cast<Real>(facet(cos_i, cos_o) * facet.Albedo() / kPi<double>);
+}
+
+template <template <class> class Distribution, class Real, Masking masking, class Facet>
 struct RoughDiffuse {
   Distribution<Real> distribution;
+  Facet facet;
   int order;  // of the quadrature
 
   // f |wo.n|.
   Real Eval(const Vec3<Real>& wi, Vec3<Real> wo) const {
-    if (AnyNan(wi, wo, distribution)) return kNan<Real>;
+    if (AnyNan(wi, wo, distribution, facet)) return kNan<Real>;
     const Vec3<Real> up{wi.x, wi.y, std::abs(wi.z)};
     wo.z = wi.z < 0 ? -wo.z : wo.z;
     if (!(up.z > 0 && wo.z > 0)) return 0;
-    return Saturate<Real>(Sum(up, wo) * G2OverCos<masking>(distribution, up, wo) / Square(kPi<double>));
+    const double white = Sum(up, wo) * G2OverCos<masking>(distribution, up, wo) / Square(kPi<double>);
+    return Saturate<Real>(white * facet.Albedo());
   }
 
  private:
@@ -98,7 +111,7 @@ struct RoughDiffuse {
     return Narrow<double>(W(a) * W(b) - W(c) * W(d));
   }
 
-  // Int <wi.m> <wo.m> D(m) dm, times pi.
+  // Int <wi.m> <wo.m> facet D(m) dm, times pi.
   double Sum(const Vec3<Real>& wi, const Vec3<Real>& wo) const {
     const double alpha_x = distribution.alpha_x, alpha_y = distribution.alpha_y, zi = wi.z, zo = wo.z;
     // Horizontal parts of A, B and zo A - zi B, which is across the corner's azimuth, and A x B.
@@ -118,7 +131,9 @@ struct RoughDiffuse {
       double sum = 0;
       for (const LegendreNode& node : nodes) {
         const auto [r, weight, rest] = RadiusAt(distribution, order, node, K);
-        sum += weight * (zi * rest + r * a_rises) * (zo * rest + r * b_rises) / std::sqrt(1 + r * r * slope2);
+        const double of_i = zi * rest + r * a_rises, of_o = zo * rest + r * b_rises;
+        const double length = std::sqrt(1 + r * r * slope2);
+        sum += weight * of_i * of_o / length * facet(of_i / length, of_o / length);
       }
       return sum;
     };

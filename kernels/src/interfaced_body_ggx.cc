@@ -1,0 +1,34 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "src/interfaced_body_ggx.cc"
+#include "hwy/foreach_target.h"  // must stand before highway.h
+#include "microlane/ggx-inl.h"
+#include "src/interfaced_call.h"
+#include "src/rough_diffuse_kernels-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace microlane {
+namespace HWY_NAMESPACE {
+namespace {
+
+FamilyCode FamilyOnTarget() {
+  return RoughDiffuseFamily<Ggx, GgxRadius, Normals::kGgx, Scatterer::kInterfaced>();
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace microlane
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace microlane {
+
+HWY_EXPORT(FamilyOnTarget);
+template <>
+const FamilyFunction* RoughDiffuseTable<Normals::kGgx, Scatterer::kInterfaced>() {
+  return HWY_DISPATCH_TABLE(FamilyOnTarget);
+}
+template class InterfacedBodyLanes<Normals::kGgx, float>;
+template class InterfacedBodyLanes<Normals::kGgx, double>;
+
+}  // namespace microlane
+#endif  // HWY_ONCE
