@@ -25,5 +25,6 @@
 #include "microlane/student_t.h"            // IWYU pragma: export
 #include "microlane/tabulated.h"            // IWYU pragma: export
 #include "microlane/targets.h"              // IWYU pragma: export
+#include "microlane/v_cavity.h"             // IWYU pragma: export
 
 #endif  // MICROLANE_MICROLANE_H_
