@@ -24,6 +24,22 @@ struct VCavityPlan {
   std::uint32_t rows, columns, orders, seed, max_hits;
 };
 
+// The places of the bits of each byte, then the others.
+struct PackedLanes {
+  std::uint8_t row[256][8] = {};
+  constexpr PackedLanes() {
+    for (int bits = 0; bits < 256; ++bits) {
+      int at = 0;
+      for (const int wanted : {1, 0}) {
+        for (int lane = 0; lane < 8; ++lane) {
+          if (((bits >> lane) & 1) == wanted) row[bits][at++] = static_cast<std::uint8_t>(lane);
+        }
+      }
+    }
+  }
+};
+inline constexpr PackedLanes kPackedLanes;
+
 using VCavityFunction = VCavityTotals (*)(const VCavityPlan&, std::uint64_t, std::uint64_t, std::uint64_t*);
 
 // Each distribution's dispatch table.

@@ -41,6 +41,45 @@ struct ExitPool {
   std::size_t size = 0;
 };
 
+// Compress, whose tables Highway 1.0.3 copies to the stack with every call on targets that have no
+// instruction for it, by one look-up for all vectors of a mask.
+template <class D>
+inline constexpr bool kPacksByTable = !HWY_HAVE_SCALABLE && HWY_LANES(T<D>) <= 8 && HWY_LANES(T<D>) > 1;
+
+// What PackLanes takes to bring the lanes of `mask` side by side.
+template <class D>
+HWY_INLINE auto PackingOf(D d, hn::Mask<D> mask) {
+  if constexpr (kPacksByTable<D>) {
+    const hn::RebindToSigned<D> di;
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(d, mask, bits);
+    const hn::Rebind<std::uint8_t, D> du8;
+    return hn::IndicesFromVec(d, hn::PromoteTo(di, hn::LoadU(du8, kPackedLanes.row[bits[0]])));
+  } else {
+    (void)d;
+    return mask;
+  }
+}
+
+// Stores those lanes; what is behind them is overwritten.
+template <class D, class Packing>
+HWY_INLINE void PackLanes(D d, Vec<D> v, Packing packing, T<D>* to) {
+  if constexpr (kPacksByTable<D>) {
+    hn::StoreU(hn::TableLookupLanes(v, packing), d, to);
+  } else {
+    hn::StoreU(hn::Compress(v, packing), d, to);
+  }
+}
+template <class D, class Packing>
+HWY_INLINE void PackLanes(D d, Vec<hn::RebindToUnsigned<D>> v, Packing packing, std::uint32_t* to) {
+  const hn::RebindToUnsigned<D> du;
+  if constexpr (kPacksByTable<D>) {
+    hn::StoreU(hn::BitCast(du, hn::TableLookupLanes(hn::BitCast(d, v), packing)), du, to);
+  } else {
+    hn::StoreU(hn::BitCast(du, hn::Compress(hn::BitCast(d, v), packing)), du, to);
+  }
+}
+
 template <class Dist, class D>
 HWY_INLINE void AddPaths(D d, PathPool& pool, const VCavityPlan& plan, std::uint32_t high_word,
                          std::uint32_t first) {
@@ -137,10 +176,12 @@ HWY_INLINE std::size_t PassFacet(D d, PathPool& pool, ExitPool& exits, VCavityTo
 
   if (!hn::AllFalse(d, out)) {
     const std::size_t end = exits.size;
-    hn::CompressStore(hn::MulSub(ou, ex, hn::Mul(ov, ey)), out, d, exits.x + end);
-    hn::CompressStore(hn::MulAdd(ou, ey, hn::Mul(ov, ex)), out, d, exits.y + end);
-    hn::CompressStore(oz, out, d, exits.z + end);
-    exits.size += hn::CompressStore(met, hn::RebindMask(du, out), du, exits.hits + end);
+    const auto packing = PackingOf(d, out);
+    PackLanes(d, hn::MulSub(ou, ex, hn::Mul(ov, ey)), packing, exits.x + end);
+    PackLanes(d, hn::MulAdd(ou, ey, hn::Mul(ov, ex)), packing, exits.y + end);
+    PackLanes(d, oz, packing, exits.z + end);
+    PackLanes(d, met, packing, exits.hits + end);
+    exits.size += hn::CountTrue(d, out);
   }
   // Of those that meet the other facet: what went out by o comes in from -o, half a turn about z further.
   auto on = meets;
@@ -159,18 +200,19 @@ HWY_INLINE std::size_t PassFacet(D d, PathPool& pool, ExitPool& exits, VCavityTo
                                                        hn::And(drawn, hn::Set(du, kInside - 1)))
                                       : drawn;
   const auto next_hits = kMayTryAgain ? hn::IfThenElse(again_words, hits, met) : met;
-  hn::CompressStore(s, keep, d, pool.s + kept);
-  hn::CompressStore(c, keep, d, pool.c + kept);
-  hn::CompressStore(either(next, t), keep, d, pool.t + kept);
-  hn::CompressStore(either(ou, iu), keep, d, pool.iu + kept);
-  hn::CompressStore(either(ov, iv), keep, d, pool.iv + kept);
-  hn::CompressStore(either(hn::Neg(oz), iz), keep, d, pool.iz + kept);
-  hn::CompressStore(either(hn::Neg(ex), ex), keep, d, pool.ex + kept);
-  hn::CompressStore(either(hn::Neg(ey), ey), keep, d, pool.ey + kept);
-  const auto keep_words = hn::RebindMask(du, keep);
-  hn::CompressStore(path, keep_words, du, pool.path + kept);
-  hn::CompressStore(next_draw, keep_words, du, pool.draw + kept);
-  return kept + hn::CompressStore(next_hits, keep_words, du, pool.hits + kept);
+  const auto packing = PackingOf(d, keep);
+  PackLanes(d, s, packing, pool.s + kept);
+  PackLanes(d, c, packing, pool.c + kept);
+  PackLanes(d, either(next, t), packing, pool.t + kept);
+  PackLanes(d, either(ou, iu), packing, pool.iu + kept);
+  PackLanes(d, either(ov, iv), packing, pool.iv + kept);
+  PackLanes(d, either(hn::Neg(oz), iz), packing, pool.iz + kept);
+  PackLanes(d, either(hn::Neg(ex), ex), packing, pool.ex + kept);
+  PackLanes(d, either(hn::Neg(ey), ey), packing, pool.ey + kept);
+  PackLanes(d, path, packing, pool.path + kept);
+  PackLanes(d, next_draw, packing, pool.draw + kept);
+  PackLanes(d, next_hits, packing, pool.hits + kept);
+  return kept + hn::CountTrue(d, keep);
 }
 
 template <class D>
