@@ -21,6 +21,7 @@ void AddEval(CLI::App& app);
 void AddAccuracy(CLI::App& app, int& exit_code);
 void AddBench(CLI::App& app);
 void AddQuadrature(CLI::App& app);
+void AddCavities(CLI::App& app, int& exit_code);
 void AddTables(CLI::App& app);
 void AddReport(CLI::App& app);
 

@@ -14,6 +14,7 @@ int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape): only me
   microlane::AddAccuracy(app, exit_code);
   microlane::AddBench(app);
   microlane::AddQuadrature(app);
+  microlane::AddCavities(app, exit_code);
   microlane::AddTables(app);
   microlane::AddReport(app);
   try {
