@@ -1,4 +1,6 @@
 // `microlane cavities`: light inside V-cavities (Meneveaux 2015 section 3.3), on all cores.
+#include "cavities.h"
+
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
@@ -154,18 +156,15 @@ double ThreadSeconds() {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-// The most facet hits a second of processor time over repetitions, lanes and scalar in turn.
-struct Speed {
-  double lanes = 0, scalar = 0;
-};
-Speed MeasureSpeed(const Request& request, const VCavityScene& scene) {
+// Lanes and scalar in turn.
+CavitySpeed MeasureSpeed(const Request& request, const VCavityScene& scene) {
   std::vector<std::uint64_t> counts(VCavityCounts(scene));
   const auto rate = [&](const auto& trace, std::uint64_t count) {
     const double start = ThreadSeconds();
     const VCavityTotals totals = trace(request, scene, 0, count, counts.data());
     return static_cast<double>(totals.hits) / (ThreadSeconds() - start);
   };
-  Speed speed;
+  CavitySpeed speed;
   const double start = ThreadSeconds();
   do {
     speed.lanes = std::max(speed.lanes, rate(TraceLanes, 1 << 17));
@@ -180,12 +179,10 @@ void PrintShare(const std::string& name, std::uint64_t count, std::uint64_t path
 }
 
 void Print(const CavityResult& result) {
-  const std::size_t cells = result.scene.rows * result.scene.columns;
   fmt::print("{:<24} {:>10} {:>9}\n", "", "energy", "+-");
   std::uint64_t left = 0;
   for (std::size_t order = 0; order < result.scene.orders; ++order) {
-    std::uint64_t sum = 0;
-    for (std::size_t j = 0; j < cells; ++j) sum += result.counts[order * cells + j];
+    const std::uint64_t sum = CountOfHits(result, order);
     left += sum;
     const std::string name = HitsName(result.scene, order);
     PrintShare(fmt::format("after {} {}", name, name == "1" ? "hit" : "hits"), sum, result.paths);
@@ -214,6 +211,16 @@ VCavityScene SceneOf(const Request& request) {
   scene.seed = request.seed;
   scene.max_hits = request.max_bounces;
   return scene;
+}
+
+std::string Title(const Request& request) {
+  const std::string facets = request.facets == "mirror"
+                                 ? std::string("mirrors")
+                                 : fmt::format("interfaced facets, n = {:g}, k = {:g}", request.n, request.k);
+  return fmt::format("{}, alpha {:g}{}, {}, {:g} degrees", request.distribution == "ggx" ? "GGX" : "Beckmann",
+                     request.alpha,
+                     request.ratio == 1 ? "" : fmt::format(" and {:g}", request.alpha * request.ratio),
+                     facets, request.theta);
 }
 
 void Run(const Request& request, int& exit_code) {
@@ -246,19 +253,14 @@ void Run(const Request& request, int& exit_code) {
   std::signal(SIGINT, SIG_DFL);
   if (result.paths == 0) Fail("interrupted before any path was traced");
 
-  const std::string facets = request.facets == "mirror"
-                                 ? std::string("mirrors")
-                                 : fmt::format("interfaced facets, n = {:g}, k = {:g}", request.n, request.k);
-  const std::string title = fmt::format(
-      "{}, alpha {:g}{}, {}, {:g} degrees", request.distribution == "ggx" ? "GGX" : "Beckmann", request.alpha,
-      request.ratio == 1 ? "" : fmt::format(" and {:g}", scene.alpha_y), facets, request.theta);
+  const std::string title = Title(request);
   fmt::print("V-cavities of {}: {} paths{}\n", title, result.paths, stopped ? ", interrupted" : "");
   Print(result);
   fmt::print("\ntarget {}, {} {}: {:.2f} s, {:.1f} million facet hits a second\n", ChosenTarget(), threads,
              threads == 1 ? "thread" : "threads", seconds,
              static_cast<double>(result.totals.hits) / seconds * 1e-6);
   if (!stopped && request.seconds > 0) {
-    const Speed speed = MeasureSpeed(request, scene);
+    const CavitySpeed speed = MeasureSpeed(request, scene);
     fmt::print("one core: {:.1f} million facet hits a second in lanes, {:.2f} scalar, {:.1f} times\n",
                speed.lanes * 1e-6, speed.scalar * 1e-6, speed.lanes / speed.scalar);
   }
@@ -275,6 +277,26 @@ void Run(const Request& request, int& exit_code) {
 }
 
 }  // namespace
+
+std::vector<CavityFigure> MeasureCavities(std::uint64_t paths) {
+  std::vector<CavityFigure> figures;
+  const auto measure = [&](const char* facets, double n, double k) {
+    Request request;
+    request.facets = facets;
+    request.alpha = 0.8;
+    request.n = n;
+    request.k = k;
+    const VCavityScene scene = SceneOf(request);
+    figures.push_back({Title(request), request.distribution == "ggx",
+                       Simulate(request, scene, paths, tbb::info::default_concurrency()),
+                       MeasureSpeed(request, scene)});
+  };
+  measure("interfaced", 1, 1);
+  measure("interfaced", 1.5, 0.8);
+  measure("interfaced", 1.5, 0);
+  measure("mirror", 1, 0);
+  return figures;
+}
 
 void AddCavities(CLI::App& app, int& exit_code) {
   CLI::App* cavities =

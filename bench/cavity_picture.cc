@@ -145,7 +145,7 @@ std::string LobesPanel(const CavityResult& result, bool ggx) {
   return data +
          "set title 'In the plane of incidence'\nset xlabel 'degrees from the normal, light from the left'\n"
          "set ylabel 'f, 1/sr'\nset xrange [-90:90]\nset xtics 30\nset yrange [0:*]\n"
-         "set grid xtics ytics lt 1 lw 0.5 lc rgb '#dddddd'\nset key top left Left reverse\n" +
+         "set grid xtics ytics lt 1 lw 0.5 lc rgb '#dddddd'\nset key below horizontal Left reverse\n" +
          plot;
 }
 
@@ -186,6 +186,13 @@ std::string HitsName(const VCavityScene& scene, std::size_t order) {
   return fmt::format("{}{}", order + 1, order + 1 == scene.orders ? "+" : "");
 }
 
+std::uint64_t CountOfHits(const CavityResult& result, std::size_t order) {
+  const std::size_t cells = result.scene.rows * result.scene.columns;
+  std::uint64_t sum = 0;
+  for (std::size_t j = 0; j < cells; ++j) sum += result.counts[order * cells + j];
+  return sum;
+}
+
 void WriteCavityCsv(const CavityResult& result, const std::string& title, std::ostream& out) {
   const VCavityScene& scene = result.scene;
   out << fmt::format("# V-cavities of {}: {} paths, seed {}\n", title, result.paths, scene.seed)
@@ -213,15 +220,18 @@ std::string PictureTerminal(const std::string& name) {
                          : "";
 }
 
+std::string CavityScript(const CavityResult& result, const std::string& title, bool ggx) {
+  return fmt::format("set multiplot layout 1, 2 title '{}'\n", title) + LobesPanel(result, ggx) +
+         HemispherePanel(result) + "unset multiplot\n";
+}
+
 std::string DrawCavities(const CavityResult& result, const std::string& title, bool ggx,
                          const std::string& name) {
   std::string quoted;
   for (const char c : name) quoted += c == '\'' ? "''" : std::string(1, c);
   const std::string script =
-      fmt::format(
-          "set encoding utf8\nset terminal {}\nset output '{}'\nset multiplot layout 1, 2 title '{}'\n",
-          PictureTerminal(name), quoted, title) +
-      LobesPanel(result, ggx) + HemispherePanel(result) + "unset multiplot\nset output\n";
+      fmt::format("set encoding utf8\nset terminal {}\nset output '{}'\n", PictureTerminal(name), quoted) +
+      CavityScript(result, title, ggx) + "set output\n";
   std::FILE* const pipe = popen("gnuplot -", "w");
   if (pipe == nullptr) return "cannot run gnuplot";
   const bool sent = std::fwrite(script.data(), 1, script.size(), pipe) == script.size();

@@ -22,13 +22,19 @@ struct CavityResult {
 // "1", "2", ..., and "4+" for the last order.
 std::string HitsName(const VCavityScene& scene, std::size_t order);
 
+// Paths that left after that many hits.
+std::uint64_t CountOfHits(const CavityResult& result, std::size_t order);
+
 void WriteCavityCsv(const CavityResult& result, const std::string& title, std::ostream& out);
 
 // gnuplot's terminal for the name of a picture; empty for any but .svg and .png.
 std::string PictureTerminal(const std::string& name);
 
-// f in the plane of incidence by the number of hits, with what the model without inter-reflection gives for
-// one hit, and f of all hits on the hemisphere. Empty, or what went wrong.
+// gnuplot's commands for a picture of f in the plane of incidence by the number of hits, with what the model
+// without inter-reflection gives for one hit, and f of all hits on the hemisphere.
+std::string CavityScript(const CavityResult& result, const std::string& title, bool ggx);
+
+// Draws it. Empty, or what went wrong.
 std::string DrawCavities(const CavityResult& result, const std::string& title, bool ggx,
                          const std::string& name);
 

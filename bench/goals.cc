@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <string_view>
@@ -79,6 +80,19 @@ void SetGoals(ReportData& data) {
   speed("Beckmann reflection value with exact Lambda, standard, against textbook",
         "rough_dielectric_beckmann.eval_reflection", Path::kStandard, 30);
 
+  if (!data.cavities.empty()) {
+    const auto slowest = [&](const auto& figure) {
+      double least = INFINITY;
+      for (const CavityFigure& cavities : data.cavities) least = std::min(least, figure(cavities.speed));
+      return least;
+    };
+    const double hits = slowest([](const CavitySpeed& s) { return s.lanes * 1e-6; });
+    const double times = slowest([](const CavitySpeed& s) { return s.lanes / s.scalar; });
+    data.goals.push_back({"V-cavities: facet hits a second a core, the slowest of the scenes", "60 million",
+                          fmt::format("{} million", Short(hits)), hits >= 60});
+    data.goals.push_back(
+        {"the same, against scalar", "12 times", fmt::format("{} times", Short(times)), times >= 12});
+  }
   if (CanCountOperations()) {
     const Operations& operations =
         result_of("rough_dielectric.eval_reflection")[Path::kStandard].floor.per_vector;

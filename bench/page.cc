@@ -199,6 +199,29 @@ std::string GoalTable(const ReportData& data) {
   return html + "</table>\n";
 }
 
+std::string CavityTable(const ReportData& data) {
+  std::string html = "<table><tr><th>V-cavities of";
+  for (std::size_t order = 0; order < (data.cavities.empty() ? 0 : data.cavities[0].result.scene.orders);
+       ++order) {
+    const std::string name = HitsName(data.cavities[0].result.scene, order);
+    html += fmt::format("<th>{} {}", name, name == "1" ? "hit" : "hits");
+  }
+  html += "<th>absorbed<th>lanes, 10<sup>6</sup>/s<th>scalar, 10<sup>6</sup>/s<th>times</tr>\n";
+  for (const CavityFigure& figure : data.cavities) {
+    const CavityResult& result = figure.result;
+    const double paths = static_cast<double>(result.paths);
+    html += fmt::format("<tr><td>{}", Escaped(figure.title));
+    for (std::size_t order = 0; order < result.scene.orders; ++order) {
+      html += Cell(fmt::format("{:.4f}", static_cast<double>(CountOfHits(result, order)) / paths));
+    }
+    html += Cell(fmt::format("{:.4f}", static_cast<double>(result.totals.absorbed) / paths)) +
+            Cell(fmt::format("{:.1f}", figure.speed.lanes * 1e-6)) +
+            Cell(fmt::format("{:.2f}", figure.speed.scalar * 1e-6)) +
+            Cell(fmt::format("{:.1f}", figure.speed.lanes / figure.speed.scalar)) + "</tr>\n";
+  }
+  return html + "</table>\n";
+}
+
 std::string CeilingTable(const ReportData& data) {
   std::string html = "<table><tr><th>vector";
   for (const char* name : kUnitNames) html += fmt::format("<th>{}", Escaped(name));
@@ -338,6 +361,16 @@ std::string MakePage(const ReportData& data, const std::filesystem::path& folder
       Image(folder, kLobesPlot, "Specular lobes of Kelemen 2001") +
       Image(folder, kMattePlot, "Matte lobes of Kelemen 2001") +
       Image(folder, kAlbedoPlot, "Albedo curves of Kelemen 2001");
+  html +=
+      "<h2>Light inside V-cavities</h2>\n<p>Meneveaux 2015 section 3.3: the energy that leaves after one, "
+      "two, "
+      "three and more facets, and facet hits a second of one core in lanes and scalar. In the plane of "
+      "incidence, "
+      "the circles are the model without inter-reflection.</p>\n" +
+      CavityTable(data);
+  for (std::size_t j = 0; j < data.cavities.size(); ++j) {
+    html += Image(folder, CavityPlot(j), "Simulated BRDF, " + data.cavities[j].title);
+  }
   html +=
       "<h2>Tables</h2>\n<p>Of albedo: the largest error between entries, against the quadrature that makes "
       "them. Of "

@@ -399,6 +399,8 @@ std::string KernelPlot(std::size_t kernel) {
 
 std::string GlassPlot(const std::string& glass) { return "plots/glass_" + glass; }
 
+std::string CavityPlot(std::size_t figure) { return fmt::format("plots/cavities_{}", figure + 1); }
+
 bool HasGnuplot() { return std::system("gnuplot --version > /dev/null 2>&1") == 0; }
 
 std::string WritePlots(const ReportData& data, const std::filesystem::path& folder,
@@ -418,6 +420,10 @@ std::string WritePlots(const ReportData& data, const std::filesystem::path& fold
   plots.emplace_back(kMattePlot, MatteScript(data.kelemen));
   plots.emplace_back(kAlbedoPlot, AlbedoScript(data.kelemen));
   plots.emplace_back(kTablesPlot, TablesScript(data));
+  for (std::size_t j = 0; j < data.cavities.size(); ++j) {
+    const CavityFigure& figure = data.cavities[j];
+    plots.emplace_back(CavityPlot(j), CavityScript(figure.result, figure.title, figure.ggx));
+  }
   const std::size_t wide = plots.size();
   for (const KernelResult& result : data.kernels) {
     plots.emplace_back(KernelPlot(result.kernel), KernelScript(result));

@@ -21,6 +21,7 @@ inline constexpr const char* kFloorPlot = "plots/floor";
 inline constexpr const char* kLobesPlot = "plots/kelemen_lobes";    // Kelemen 2001 Figs. 2, 6
 inline constexpr const char* kAlbedoPlot = "plots/kelemen_albedo";  // Figs. 3, 5
 inline constexpr const char* kMattePlot = "plots/kelemen_matte";    // Fig. 4
+std::string CavityPlot(std::size_t figure);
 inline constexpr const char* kTablesPlot = "plots/tables";
 
 // Whether there is a gnuplot to run.

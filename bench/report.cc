@@ -279,6 +279,8 @@ void Run(const Request& request) {
   data.kelemen = MeasureKelemen();
   data.albedo_tables = MeasureAlbedoTables();
   data.radial_tables = MeasureRadialTables();
+  progress.Show("tracing V-cavities", 0, 1, "");
+  data.cavities = MeasureCavities(20000000);
   SetGoals(data);
   progress.Clear();
   WriteTables(data, folder);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "cavities.h"
 #include "ceilings.h"
 #include "glasses.h"
 #include "kelemen.h"
@@ -88,6 +89,7 @@ struct ReportData {
   std::vector<StabilityResult> stability;  // the results of a row together
   std::vector<GlassCurve> glasses;
   KelemenFigures kelemen;
+  std::vector<CavityFigure> cavities;
   std::vector<TableCost> albedo_tables, radial_tables;
   std::vector<Goal> goals;
 };
