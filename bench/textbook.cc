@@ -1128,6 +1128,50 @@ void PhongDensity(const float* in, float* out, Transport) {
   out[0] = distribution.D(Load(in)) * CosTheta(Load(in));
 }
 
+// Meneveaux 2015 Eq. 13 as printed, its integral by the trapezoidal rule.
+struct Gaussian {
+  float sigma;
+
+  float C() const {
+    constexpr int kSteps = 64;
+    const float end = std::min(kPi / 2, 6 * sigma), step = end / kSteps;
+    float sum = 0;
+    for (int i = 1; i <= kSteps; ++i) {
+      const float t = step * static_cast<float>(i);
+      sum += (i == kSteps ? 0.5f : 1) * std::exp(-Sqr(t) / (2 * Sqr(sigma))) * std::sin(t);
+    }
+    return 1 / (2 * kPi * step * sum);
+  }
+  float D(const Vec3& wm) const {
+    if (wm.z <= 0) return 0;
+    const float theta = std::acos(std::min(CosTheta(wm), 1.f));
+    return C() * std::exp(-Sqr(theta) / (2 * Sqr(sigma))) / CosTheta(wm);
+  }
+};
+void GaussianC(const float* in, float* out, Transport) { out[0] = Gaussian{in[0]}.C(); }
+void GaussianD(const float* in, float* out, Transport) { out[0] = Gaussian{in[3]}.D(Load(in)); }
+void GaussianVCavity(const float* in, float* out, Transport) {
+  const Vec3 v = Load(in), m = Load(in + 3);
+  const float seen = v.z < 0 ? -Dot(v, m) : Dot(v, m);
+  out[0] = seen <= 0 ? 0 : std::min(seen / AbsCosTheta(v), 2 * CosTheta(m)) * Gaussian{in[6]}.D(m);
+}
+void GaussianEval(const float* in, float* out, Transport) {
+  const Vec3 wi = Load(in), wo = Load(in + 3);
+  out[0] = 0;
+  if (wi.z * wo.z <= 0) return;
+  Vec3 h = Normalize(wi + wo);
+  if (h.z < 0) h = -1 * h;
+  const float wi_h = AbsDot(wi, h), wo_h = AbsDot(wo, h), scale = 2 * CosTheta(h);
+  const float G = std::min({1.f, scale * AbsCosTheta(wi) / wi_h, scale * AbsCosTheta(wo) / wo_h});
+  out[0] = Gaussian{in[6]}.D(h) * G / (4 * AbsCosTheta(wi));
+}
+void GaussianSample(const float* in, float* out, Transport) {
+  const float sigma = in[2], q = 1 - std::exp(-Sqr(kPi) / (8 * Sqr(sigma)));
+  const float theta = sigma * std::sqrt(-2 * std::log(1 - in[0] * q)), sin_theta = std::sin(theta);
+  Store(SphericalDirection(sin_theta, std::cos(theta), 2 * kPi * in[1]), out);
+  out[3] = theta * std::exp(-Sqr(theta) / (2 * Sqr(sigma))) / (2 * kPi * Sqr(sigma) * q * sin_theta);
+}
+
 // Kelemen 2001 as printed, with the sine that the cumulative reflection function lacks.
 struct CoupledMaterial {
   const AlbedoSteps& albedo;
@@ -1374,6 +1418,12 @@ constexpr std::array kEntries = {
     Make<KernelIndex("phong.exponent"), PhongExponent>(),
     Make<KernelIndex("phong.Lambda"), PhongLambda>(),
     Make<KernelIndex("phong.G1_smith"), PhongG1Smith>(),
+
+    Make<KernelIndex("gaussian.C"), GaussianC>(),
+    Make<KernelIndex("gaussian.D"), GaussianD>(),
+    Make<KernelIndex("gaussian.D_visible_v_cavity"), GaussianVCavity>(),
+    Make<KernelIndex("gaussian.eval_v_cavity"), GaussianEval>(),
+    Make<KernelIndex("gaussian.sample_normal"), GaussianSample>(),
 
     Make<KernelIndex("fresnel.dielectric"), Reflectance>(),
     Make<KernelIndex("fresnel.dielectric_transmittance"), Transmittance>(),

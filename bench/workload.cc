@@ -24,8 +24,8 @@ class Lanes {
   explicit Lanes(std::size_t kernel) {
     const std::string_view id = kKernels[kernel].id;
     const std::string_view inputs = kKernels[kernel].inputs;
-    beckmann_ = Contains(id, "beckmann");
-    isotropic_ = Contains(inputs, "exponent") || Contains(id, "isotropic");
+    beckmann_ = Contains(id, "beckmann") || Contains(id, "gaussian");
+    isotropic_ = Contains(inputs, "exponent") || Contains(inputs, "sigma") || Contains(id, "isotropic");
     student_ = Contains(id, "student_t") || Contains(id, "tabulated");
     table_ = Contains(id, "tabulated");
     reflects_ = !Contains(id, "transmission") && !Contains(id, "refract");
@@ -79,6 +79,7 @@ class Lanes {
                : name == "x"        ? x_
                : name == "a"        ? a_
                : name == "tail"     ? gamma_
+               : name == "sigma"    ? alpha_x_ * 0.70710678118654752
                : name == "gamma"    ? (student_ ? gamma_ : 1.6 + a_)
                : name == "order"    ? static_cast<double>(kWorkloadOrder)
                : name == "index"    ? kWorkloadIndex

@@ -308,6 +308,12 @@ const std::vector<Row<T>>& Rows() {
       {"phong.G1_smith", [](A& a) { phong::G1Smith(a.n, a.Direction(0), a.Direction(3), a.Value(6), a.Out(0), a.accuracy); }},
       {"phong.exponent", [](A& a) { phong::Exponent(a.n, a.Lanes(0), a.Out(0), a.accuracy); }},
 
+      {"gaussian.C", [](A& a) { gaussian::C(a.n, a.Lanes(0), a.Out(0), a.accuracy); }},
+      {"gaussian.D", [](A& a) { gaussian::D(a.n, a.Direction(0), a.Value(3), a.Out(0), a.accuracy); }},
+      {"gaussian.D_visible_v_cavity", [](A& a) { gaussian::DVisibleVCavity(a.n, a.Direction(0), a.Direction(3), a.Value(6), a.Out(0), a.accuracy); }},
+      {"gaussian.eval_v_cavity", [](A& a) { gaussian::EvalVCavity(a.n, a.Direction(0), a.Direction(3), a.Value(6), a.Out(0), a.accuracy); }},
+      {"gaussian.sample_normal", [](A& a) { gaussian::SampleNormal(a.n, a.Lanes(0), a.Lanes(1), a.Value(2), a.OutDirection(0), a.Out(3), a.accuracy); }},
+
       {"fresnel.dielectric", [](A& a) { fresnel::Dielectric(a.n, a.Lanes(0), a.Value(1), a.Out(0), a.accuracy); }},
       {"fresnel.dielectric_transmittance", [](A& a) { fresnel::DielectricTransmittance(a.n, a.Lanes(0), a.Value(1), a.Out(0), a.accuracy); }},
       {"fresnel.dielectric_s", [](A& a) { fresnel::DielectricS(a.n, a.Lanes(0), a.Value(1), a.Out(0), a.accuracy); }},

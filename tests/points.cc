@@ -57,6 +57,7 @@ enum Field : int {
   kM,
   kIndex,
   kNi,
+  kSigma,
   kTail,
   kNumFields
 };
@@ -65,7 +66,7 @@ constexpr std::string_view kFieldNames[] = {
     "wox",    "woy",      "woz",       "cos_i",     "cos_o",     "alpha",    "alpha_x", "alpha_y", "r_xy",
     "mean_x", "mean_y",   "moment_xx", "moment_yy", "moment_xy", "exponent", "eta",     "n",       "kappa",
     "f0",     "Lambda_i", "Lambda_o",  "u1",        "u2",        "u3",       "x",       "a",       "mu",
-    "gamma",  "order",    "k",         "m",         "index",     "n_i",      "tail"};
+    "gamma",  "order",    "k",         "m",         "index",     "n_i",      "sigma",   "tail"};
 static_assert(std::size(kFieldNames) == kNumFields && std::size(kInputs) == kNumFields,
               "one field per input");
 
@@ -77,7 +78,7 @@ constexpr bool FieldsMatchInputs() {
 }
 static_assert(FieldsMatchInputs(), "fields stand in the order of kInputs");
 
-constexpr double kTwoPi = 6.283185307179586;
+constexpr double kTwoPi = 6.283185307179586, kRootTwo = 1.4142135623730951;
 constexpr double kLargestU = 1 - 0x1p-24;
 constexpr double kSmallestCosine = 1e-7;
 
@@ -112,12 +113,13 @@ Shape MakeShape(std::size_t kernel) {
     shape.field[i] = static_cast<Field>(field);
     shape.has[field] = true;
   }
-  shape.distribution = shape.has[kExponent] ? Distribution::kPhong
-                       : Contains(id, "beckmann") || Contains(id, "ward") || shape.has[kM]
-                           ? Distribution::kBeckmann
-                       : Contains(id, "student_t") || shape.has[kTail] ? Distribution::kStudentT
-                                                                       : Distribution::kGgx;
-  shape.isotropic = shape.has[kAlpha] || shape.has[kExponent] || shape.has[kM];
+  shape.distribution =
+      shape.has[kExponent] ? Distribution::kPhong
+      : Contains(id, "beckmann") || Contains(id, "ward") || shape.has[kM] || shape.has[kSigma]
+          ? Distribution::kBeckmann
+      : Contains(id, "student_t") || shape.has[kTail] ? Distribution::kStudentT
+                                                      : Distribution::kGgx;
+  shape.isotropic = shape.has[kAlpha] || shape.has[kExponent] || shape.has[kM] || shape.has[kSigma];
   shape.pairs = shape.has[kWox];
   shape.samples = shape.has[kWix] && shape.has[kU1];
   shape.visible = Contains(id, "visible");
@@ -175,6 +177,7 @@ void Put(Scene& scene, Field first, const Vector& v) {
 double RoughnessX(const Shape& shape, const Scene& scene) {
   return shape.distribution == Distribution::kPhong ? 1 / std::sqrt(scene[kExponent] / 2 + 1)
          : shape.has[kM]                            ? scene[kM]
+         : shape.has[kSigma]                        ? kRootTwo * scene[kSigma]
          : shape.isotropic                          ? scene[kAlpha]
                                                     : scene[kAlphaX];
 }
@@ -186,8 +189,14 @@ Vector FromSlopes(double x, double y) { return Normalized({x, y, 1}); }
 
 double Uncorrelated(const Scene& scene) { return std::sqrt((1 - scene[kRxy]) * (1 + scene[kRxy])); }
 
-// The normal whose slopes are x, y at unit roughness: Heitz 2014 Eqs. 88, 95.
+// The normal whose slopes are x, y at unit roughness: Heitz 2014 Eqs. 88, 95. Of the Gaussian of the angle,
+// whose angle is sqrt(2) sigma times their length.
 Vector Rough(const Shape& shape, const Scene& scene, double x, double y) {
+  if (shape.has[kSigma]) {
+    const double theta = std::fmod(kRootTwo * scene[kSigma] * std::hypot(x, y), 0.25 * kTwoPi);
+    const double phi = std::atan2(y, x), sine = std::sin(theta);
+    return {sine * std::cos(phi), sine * std::sin(phi), std::cos(theta)};
+  }
   if (!shape.has[kRxy]) return FromSlopes(RoughnessX(shape, scene) * x, RoughnessY(shape, scene) * y);
   const double across = scene[kRxy] * x + Uncorrelated(scene) * y;
   const double mean_x = shape.has[kMeanX] ? scene[kMeanX] : 0, mean_y = shape.has[kMeanX] ? scene[kMeanY] : 0;
@@ -337,6 +346,7 @@ class SceneMaker {
                  : random_.Chance(0.5) ? random_.LogUniform(1e-6, 1e4)
                                        : 12 * random_.Uniform();
     if (shape_.has[kGamma]) DrawStudent();
+    if (shape_.has[kSigma]) scene_[kSigma] = Fit(kSigma, Sigma(), values_);
     DrawCosines();
     if (shape_.has[kMx] || shape_.pairs || shape_.samples || shape_.has[kVx]) DrawDirections();
     return scene_;
@@ -441,6 +451,14 @@ class SceneMaker {
   double ConductorIndex() {
     const double u = random_.Uniform();
     return u < 0.4 ? scene_[kEta] : u < 0.45 ? 0.05 : random_.LogUniform(0.05, 10);
+  }
+
+  // Of the Gaussian of the angle: its ends, and the more where the horizon cuts it off.
+  double Sigma() {
+    const double u = random_.Uniform();
+    if (u < 0.1) return u < 0.05 ? 1e-3 : 2;
+    if (u < 0.2) return std::exp2(1 - random_.Index(10));
+    return u < 0.5 ? random_.LogUniform(0.1, 2) : random_.LogUniform(1e-3, 2);
   }
 
   double SmithLambda() {
@@ -672,6 +690,7 @@ constexpr double kGridIndices[] = {0.05, 0.1, 0.25, 0.5, 0.9, 1 - 1e-7, 1, 1 + 1
 constexpr double kGridKappas[] = {0, 1e-20, 1e-7, 1e-4, 0.01, 0.3, 1, 3, 10, 20};
 constexpr double kGridK[] = {0, 0.18, 0.5, 1};
 constexpr double kGridBodyIndices[] = {1, 1 + 0x1p-23, 1.00001, 1.0003, 1.01, 1.33, 1.5, 2.42, 4};
+constexpr double kGridSigmas[] = {1e-3, 0.01, 0.05, 0.1, 0.17, 0.25, 0.3, 0.4, 0.5, 0.7, 1, 1.5, 2};
 constexpr double kGridF0[] = {0, 1e-6, 0.04, 0.3, 0.9, 1 - 1e-7, 1};
 constexpr double kGridLambdas[] = {0,   1e-40, 1e-8, 1e-3,           0.1, 0.5, 1, 3, 100,
                                    1e7, 1e19,  1e37, 0x1.fffffep+127};
@@ -762,6 +781,7 @@ Scene GridScene(const Shape& shape, Digits& digits) {
   take(kIndex, kTableIndices);
   take(kTail, kTableTails);
   take(kNi, kGridBodyIndices);
+  take(kSigma, kGridSigmas);
   take(kCosI, kGridCosines);
   take(kCosO, kGridCosines);
   if (shape.has[kX]) scene[kX] = -104 + 192.0 / 4096 * static_cast<double>(digits.Take(4097));
@@ -774,7 +794,7 @@ Scene GridScene(const Shape& shape, Digits& digits) {
   }
   Vector wi{0, 0, 1}, facing{0, 0, 1};
   if (shape.has[kVx] || shape.has[kWix]) wi = GridDirection(digits);
-  const bool rough = shape.has[kAlpha] || shape.has[kAlphaX] || shape.has[kExponent];
+  const bool rough = shape.has[kAlpha] || shape.has[kAlphaX] || shape.has[kExponent] || shape.has[kSigma];
   if (shape.has[kMx] && shape.has[kVx] && !rough) {
     facing = GridDirection(digits);
   } else if (shape.has[kMx] || shape.pairs) {
@@ -812,6 +832,7 @@ class ExtremeMaker {
     Azimuths();
     Cavity();
     Student();
+    Angles();
     return std::move(cases_);
   }
 
@@ -853,6 +874,7 @@ class ExtremeMaker {
     scene[kAlpha] = scene[kAlphaX] = static_cast<float>(x);
     scene[kAlphaY] = static_cast<float>(y);
     scene[kExponent] = x < 1 ? std::min(2 / (x * x) - 2, 2e10) : 0;
+    scene[kSigma] = static_cast<float>(std::min(std::max(x / kRootTwo, 1e-3), 2.0));
   }
 
   // The scene as it stands; components and cosines need not be within the domain, but are floats.
@@ -905,7 +927,7 @@ class ExtremeMaker {
   }
 
   void Roughness() {
-    if (!Has({kAlpha, kAlphaX, kExponent})) return;
+    if (!Has({kAlpha, kAlphaX, kExponent, kSigma})) return;
     Scene scene = Base();
     constexpr double kPairs[][2] = {{1e-5, 1e-5}, {1e-5, 1e-4}, {1e-4, 1e-4},
                                     {1e-3, 1e-5}, {1e-3, 1e-3}, {1, 1e-5}};
@@ -977,7 +999,7 @@ class ExtremeMaker {
     Scene scene = Base();
     const List heights = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-38, 1e-42, 0};
     for (const double alpha : {1e-5, 1e-3, 0.1, 1.0, 1e2}) {
-      if (alpha != 0.1 && !Has({kAlpha, kAlphaX, kExponent})) continue;
+      if (alpha != 0.1 && !Has({kAlpha, kAlphaX, kExponent, kSigma})) continue;
       SetAlpha(scene, alpha, alpha);
       for (const double height : heights) {
         for (const double side : {1.0, -1.0}) {
@@ -1339,7 +1361,7 @@ class ExtremeMaker {
   // Views and normals within floats of v.m = 2 mz vz, where the two branches of the V-cavity form meet.
   void Cavity() {
     const bool of_normal = shape_.has[kVx] && shape_.has[kMx];
-    if (!(of_normal && !Has({kAlpha, kAlphaX, kExponent})) &&
+    if (!(of_normal && !Has({kAlpha, kAlphaX, kExponent, kSigma})) &&
         !(shape_.v_cavity && (of_normal || shape_.pairs))) {
       return;
     }
@@ -1364,6 +1386,39 @@ class ExtremeMaker {
               Add("vcavity-kink", "v.m = 2 mz vz, within floats", scene);
             }
           }
+        }
+      }
+    }
+  }
+
+  // Gaussians of the angle: the ends of sigma and beyond, the peak, tails down to nothing, and the horizon.
+  void Angles() {
+    if (!shape_.has[kSigma]) return;
+    Scene scene = Base();
+    for (const double sigma : {-1.0, 0.0, 0x1p-149, 1e-5, Floats(1e-3, -1), 1e-3, Floats(1e-3, 1), 0.01, 0.1,
+                               0.2, 0.25, 0.5, 1.0, Floats(2, -1), 2.0, Floats(2, 1), 3.0, 1e30}) {
+      scene[kSigma] = sigma;
+      const bool narrow = sigma < 0.05;
+      const std::string_view row = narrow ? "delta-limit" : "alpha-huge";
+      const std::string_view what = narrow ? "sigma 1e-3 and below" : "sigma 0.1 to 2 and above";
+      if (shape_.count == 1) Add(row, what, scene);
+      for (const double u1 : {0.0, 0x1p-149, 1e-10, 0.3, 0.9, 1 - 0x1p-12, kLargestU}) {
+        scene[kU1] = u1;
+        if (shape_.has[kU1]) Add(row, what, scene);
+      }
+      if (!shape_.has[kMx]) continue;
+      const double unit = std::min(std::max(sigma, 1e-3), 2.0);
+      for (const double cosine : {1.0, 0.3, 1e-3, 1e-7, 0.0, -0.5}) {
+        const Vector v = Single(AtHeight(cosine, 0.3));
+        Put(scene, kVx, v);
+        for (const double radius : {0.0, 1e-20, 1e-3, 0.5, 1.0, 3.0, 8.0, 13.0, 14.2, 30.0}) {
+          const double theta = std::min(radius * unit, 1.57);
+          Put(scene, kMx, Single({0.6 * std::sin(theta), -0.8 * std::sin(theta), std::cos(theta)}));
+          Add(row, what, scene);
+        }
+        for (const double height : {1e-3, 1e-7, 1e-20, 1e-38, 1e-42, 0.0, -0.1}) {
+          Put(scene, kMx, Single(AtHeight(height, 1)));
+          Add("grazing", "normals at the horizon", scene);
         }
       }
     }

@@ -14,6 +14,7 @@
 #include "microlane/beckmann-inl.h"
 #include "microlane/conductor-inl.h"
 #include "microlane/fresnel-inl.h"
+#include "microlane/gaussian-inl.h"
 #include "microlane/ggx-inl.h"
 #include "microlane/half_vector-inl.h"
 #include "microlane/masking-inl.h"
@@ -201,6 +202,34 @@ void Run(const float* const* in, float* const* out, size_t n) {
   OverVectors<K>(in, out, n, std::make_index_sequence<Shape<K>::kIn>());
 }
 
+template <class Op>
+struct GaussianCase {
+  static constexpr std::string_view kId = std::is_same_v<Op, GaussianNormalisationOp> ? "gaussian.C"
+                                          : std::is_same_v<Op, GaussianDensityOp>
+                                              ? "gaussian.D"
+                                              : "gaussian.D_visible_v_cavity";
+  template <Accuracy A, class D, class... V>
+  static void Eval(D d, const Options<D>&, const Outputs<D>& out, V... in) {
+    Vec<D> unused;
+    Precisely<Op, A>(d, out.v0, unused, in...);
+  }
+};
+struct GaussianEvalVCavityCase {
+  static constexpr std::string_view kId = "gaussian.eval_v_cavity";
+  template <Accuracy, class D, class... V>
+  static void Eval(D d, const Options<D>&, const Outputs<D>& out, V... in) {
+    Vec<D> unused;
+    InDouble2<InStandard<GaussianEvalVCavityOp>>(d, out.v0, unused, in...);
+  }
+};
+struct GaussianSampleCase {
+  static constexpr std::string_view kId = "gaussian.sample_normal";
+  template <Accuracy A, class D, class... V>
+  static void Eval(D d, const Options<D>&, const Outputs<D>& out, V... in) {
+    SampleGaussian<A>(d, out.v0, out.v1, out.v2, out.v3, in...);
+  }
+};
+
 struct PhongLambdaCase {
   static constexpr std::string_view kId = "phong.Lambda";
   template <Accuracy A, class D, class... V>
@@ -239,7 +268,8 @@ Cases CasesOnTarget() {
       NormalCase<Phong, phong, NormalQuantity::kD, RoughnessKind::kExponent>,
       NormalCase<Phong, phong, NormalQuantity::kG1, RoughnessKind::kExponent>,
       NormalCase<Phong, phong, NormalQuantity::kSampleNormal, RoughnessKind::kExponent>, PhongLambdaCase,
-      NormalCase<StudentT<false>, student_t, NormalQuantity::kD>,
+      GaussianCase<GaussianNormalisationOp>, GaussianCase<GaussianDensityOp>, GaussianCase<GaussianVCavityOp>,
+      GaussianEvalVCavityCase, GaussianSampleCase, NormalCase<StudentT<false>, student_t, NormalQuantity::kD>,
       NormalCase<StudentT<false>, student_t, NormalQuantity::kLambda>,
       NormalCase<StudentT<false>, student_t, NormalQuantity::kG1>,
       NormalCase<StudentT<false>, student_t, NormalQuantity::kSampleNormal>,

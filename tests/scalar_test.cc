@@ -109,6 +109,11 @@ constexpr ScalarBound kScalarBounds[] = {
     {"phong.D", 3, 4},
     {"phong.G1", 0.51, 5},
     {"phong.sample_normal", 0.51, 4},
+    {"gaussian.C", 0.51, 32},
+    {"gaussian.D", 0.51, 6000},
+    {"gaussian.D_visible_v_cavity", 0.51, 6000},
+    {"gaussian.eval_v_cavity", 0.51, 6000},
+    {"gaussian.sample_normal", 0.51, 48},
     {"fresnel.dielectric", 0.51, 3},
     {"fresnel.dielectric_transmittance", 0.51, 0.51},
     {"fresnel.dielectric_s", 0.51, 2.5},
@@ -361,6 +366,12 @@ class Generator {
 
   // A normal inside the lobe, and now and then in its far tail.
   Direction LobeNormal() {
+    if (sigma_ > 0) {
+      const double angle =
+          sigma_ * std::sqrt(-2 * std::log(Chance(0.2) ? LogUniform(1e-42, 1) : 1 - Uniform()));
+      const double phi = 2 * M_PI * Uniform(), theta = std::fmod(angle, M_PI_2);
+      return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
+    }
     const double u = Chance(0.2) ? LogUniform(1e-42, 1) : 1 - Uniform();
     double radius;
     double scale_x = alpha_x_, scale_y = alpha_y_;
@@ -387,6 +398,11 @@ class Generator {
     if (Has("tabulated")) {
       constexpr float kTails[] = {1.55f, 1.7f, 2, 2.5f, 4, 30, 1e3f, 1e10f};
       gamma_ = kTails[static_cast<int>(8 * Uniform())];
+    }
+    if (std::count(inputs_.name.begin(), inputs_.name.end(), "sigma") > 0) {
+      sigma_ = static_cast<float>(Chance(0.1)   ? 1e-3
+                                  : Chance(0.1) ? 2
+                                                : LogUniform(Chance(0.5) ? 0.1 : 1e-3, 2));
     }
     alpha_x_ = Alpha();
     alpha_y_ = Chance(0.3) ? alpha_x_ : Alpha();
@@ -502,6 +518,7 @@ class Generator {
     if (name == "n_i") return static_cast<float>(eta_ < 1 ? 1 / eta_ : eta_);
     if (name == "k") return Chance(0.2) ? 0 : Chance(0.2) ? 1 : Uniform();
     if (name == "m") return Chance(0.5) ? 0.03 : Chance(0.5) ? 0.8 : 1e-4;  // few tables
+    if (name == "sigma") return sigma_;
     if (name == "index") return Chance(0.6) ? 1.7 : Chance(0.5) ? 1.0003 : 4;
     ADD_FAILURE() << "no generator for input " << name;
     return 0;
@@ -510,7 +527,7 @@ class Generator {
   const std::string_view id_;
   const Names inputs_;
   std::mt19937_64 random_;
-  double alpha_x_ = 1, alpha_y_ = 1, eta_ = 1, exponent_ = 0, cos_i_ = 1, cos_o_ = 1, gamma_ = 2;
+  double alpha_x_ = 1, alpha_y_ = 1, eta_ = 1, exponent_ = 0, cos_i_ = 1, cos_o_ = 1, gamma_ = 2, sigma_ = 0;
   Direction m_{}, v_{}, wi_{}, wo_{};
 };
 

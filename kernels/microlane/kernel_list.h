@@ -128,10 +128,12 @@ inline constexpr Input kInputs[] = {
     {"m", 1e-4, 10, "root mean square slope of Kelemen 2001, alpha of Beckmann"},
     {"index", 1, 4, "index of a dielectric over that of the outside"},
     {"n_i", 1, 4, "index of a body under its interface over that of the outside"},
+    {"sigma", 1e-3, 2, "roughness of the Gaussian of the angle, in radians"},
     {"tail", 1.55, 1e10, "gamma of the Student-T slopes that a table is made of: any radial function makes one, this one does for tools"},
 };
 
 inline constexpr Output kOutputs[] = {
+    {"C", Metric::kUlp, "1/sr"},
     {"D", Metric::kUlp, "1/sr"},
     {"Lambda", Metric::kUlp, "1"},
     {"G1", Metric::kUlp, "1"},
@@ -251,6 +253,10 @@ inline constexpr std::string_view kSampleCoupledNote =
     "of int (1 - a) cos sin (the sine is missing in print) from the normal on, at u1 of it; else lobe 0 and every output 0, as where wo is not "
     "on wi's side. pdf of both lobes together; weight = f |cos(theta_o)| / pdf.";
 
+inline constexpr std::string_view kGaussianNote =
+    "tan(theta_m)^2 = (mx^2 + my^2)/mz^2 and cos(theta_m) = mz of m as given; 0 where mz <= 0. sigma beyond its ends counts as the nearer. "
+    "Double lanes round the angle, and an exponent of up to 745, once.";
+
 inline constexpr Kernel kComponentKernels[] = {
     // Mathematics that Highway 1.0.3 lacks, as the kernels use it.
     {"math.exp", "x", "y", "e^x", "0 below the subnormal range.", false, {1, 4, 96, 8, 1.5}},
@@ -296,6 +302,12 @@ inline constexpr Kernel kComponentKernels[] = {
     {"masking.student_lambda", "vx vy vz | alpha_x alpha_y gamma", "Lambda", "Heitz 2014 Eqs. 41-43 of Student-T slopes (d'Eon 2023; Burley 2012)", "Slopes of density 1/(pi alpha_x alpha_y) (1 + (x^2/alpha_x^2 + y^2/alpha_y^2)/(gamma - 1))^-gamma. The same on both sides of the surface; 0 along the normal; the largest finite number where the exact value exceeds it. Double lanes round an exponent of up to 745 once.", false, {1, 1, 1, 1, 6000}},
     {"masking.direction_correlated", "Lambda_i Lambda_o wix wiy wox woy", "G2", "Heitz 2014 Eq. 100", kDirectionNote, false, {1, 4, 2200, 8, 6}},
     {"masking.height_direction_correlated", "Lambda_i Lambda_o wix wiy wox woy", "G2", "Heitz 2014 Eq. 101", kDirectionNote, false, {1, 4, 1200, 8, 4}},
+
+    {"gaussian.C", "sigma", "C", "Meneveaux 2015, after Eq. 13", "1/(2 pi Int_0^(pi/2) exp(-t^2/(2 sigma^2)) sin(t) dt); sigma beyond its ends counts as the nearer.", false, {1, 1, 64, 1, 8}},
+    {"gaussian.D", "mx my mz | sigma", "D", "Meneveaux 2015 Eq. 13", kGaussianNote, false, {1, 1, 1000, 1, 6000}},
+    {"gaussian.D_visible_v_cavity", "vx vy vz mx my mz | sigma", "D", "Heitz 2014 Eqs. 16, 49; Meneveaux 2015 Eqs. 13, 14", "min(|v.m|/|vz|, 2 mz) D(m) with gaussian.D; v of either side, -v in place of v below; vz = 0 counts as above. 0 where v.m and vz differ in sign, and where mz <= 0.", false, {1, 1, 2400, 1, 6000}},
+    {"gaussian.eval_v_cavity", "wix wiy wiz wox woy woz | sigma", "f_cos", "Meneveaux 2015 Eqs. 13, 14; Walter 2007 Eq. 20", "D(h) G/(4 |wiz|), f |cos(theta_o)| of ideal mirrors, G = min(1, 2 hz |wiz|/(wi.h), 2 hz |woz|/(wo.h)); 0 for opposite sides and where wiz or woz is 0. sigma beyond its ends counts as the nearer. Double lanes round the angle, and an exponent of up to 745, once.", false, {1, 1, 1, 1, 6000}},
+    {"gaussian.sample_normal", "u1 u2 | sigma", "mx my mz pdf", "Meneveaux 2015 Eq. 13 with theta in place of sin(theta) and cos(theta)", "theta_m = sigma sqrt(-2 log(1 - u1 q)), q = 1 - exp(-pi^2/(8 sigma^2)), azimuth 2 pi u2; pdf = theta_m exp(-theta_m^2/(2 sigma^2))/(2 pi sigma^2 q sin(theta_m)), which is not D cos, but D cos theta_m/sin(theta_m) times 1/(2 pi C sigma^2 q). sigma beyond its ends counts as the nearer.", false, {1, 1, 2000, 1, 32}},
 
     {"albedo.directional", "cos_i | | m index", "albedo deficit", "Kelemen 2001 section 2.1.5, of Eqs. 3, 4", kAlbedoNote, false, {1, 2, 2, 2, 2}},
 

@@ -503,38 +503,25 @@ HWY_INLINE void SinCos2Pi(D d, Vec<D> u, Vec<D>& sin, Vec<D>& cos) {
   TurnSinCos(d, q, s, c, sin, cos, odd);
 }
 
-// Azimuths' difference from the sine and cosine of plane vectors: phi = turns pi/4 + atan(slope), |slope| <=
-// sqrt(2) - 1, where products of floats are exact in double lanes.
-struct AzimuthDifferenceOp {
-  template <class DD>
-  static HWY_INLINE void Run(DD dd, Vec<DD>& slope, Vec<DD>& turns, Vec<DD> ax, Vec<DD> ay, Vec<DD> bx,
-                             Vec<DD> by) {
-    Vec<DD> p, p_tail, q, q_tail;
-    TwoProduct(dd, ax, by, p, p_tail);
-    TwoProduct(dd, ay, bx, q, q_tail);
-    const Vec<DD> sine = hn::Abs(hn::Add(hn::Sub(p, q), hn::Sub(p_tail, q_tail)));
-    const Vec<DD> dot = hn::MulAdd(ax, bx, hn::Mul(ay, by)), cosine = hn::Abs(dot);
-    const auto steep = hn::Gt(sine, cosine);
-    const Vec<DD> high = hn::IfThenElse(steep, sine, cosine), low = hn::IfThenElse(steep, cosine, sine);
-    const auto middle = hn::Gt(low, hn::Mul(high, Const(dd, 0.41421356237309505)));
-    const Vec<DD> rise = hn::IfThenElse(middle, hn::Sub(low, high), low);
-    const Vec<DD> run = hn::IfThenElse(middle, hn::Add(low, high), high);
-    const Vec<DD> ratio = ZeroIf(hn::Eq(run, hn::Zero(dd)), hn::Div(rise, run));
-    const Vec<DD> eighth = hn::IfThenElseZero(middle, Const(dd, 1));
-    // From the quadrant's other axis, then from the other half turn.
-    slope = hn::IfThenElse(steep, hn::Neg(ratio), ratio);
-    turns = hn::IfThenElse(steep, hn::Sub(Const(dd, 2), eighth), eighth);
-    const auto behind = hn::Lt(dot, hn::Zero(dd));
-    slope = hn::IfThenElse(behind, hn::Neg(slope), slope);
-    turns = hn::IfThenElse(behind, hn::Sub(Const(dd, 4), turns), turns);
-  }
-};
+// atan2(sine, cosine) of numbers of which neither is below 0, as turns pi/4 + atan(slope), |slope| <= sqrt(2)
+// - 1; 0 where both are 0.
+template <class D>
+HWY_INLINE void SlopeOfAngle(D d, Vec<D>& slope, Vec<D>& turns, Vec<D> sine, Vec<D> cosine) {
+  const auto steep = hn::Gt(sine, cosine);
+  const Vec<D> high = hn::IfThenElse(steep, sine, cosine), low = hn::IfThenElse(steep, cosine, sine);
+  const auto middle = hn::Gt(low, hn::Mul(high, Const(d, 0.41421356237309505)));
+  const Vec<D> rise = hn::IfThenElse(middle, hn::Sub(low, high), low);
+  const Vec<D> run = hn::IfThenElse(middle, hn::Add(low, high), high);
+  const Vec<D> ratio = ZeroIf(hn::Eq(run, hn::Zero(d)), hn::Div(rise, run));
+  const Vec<D> eighth = hn::IfThenElseZero(middle, Const(d, 1));
+  // From the quadrant's other axis.
+  slope = hn::IfThenElse(steep, hn::Neg(ratio), ratio);
+  turns = hn::IfThenElse(steep, hn::Sub(Const(d, 2), eighth), eighth);
+}
 
-// The angle in [0, pi] between the azimuths of (ax, ay) and (bx, by); 0 where either vector is 0.
+// turns pi/4 + atan(slope), |slope| <= sqrt(2) - 1.
 template <Accuracy A, class D>
-HWY_INLINE Vec<D> AzimuthDifference(D d, Vec<D> ax, Vec<D> ay, Vec<D> bx, Vec<D> by) {
-  Vec<D> slope, turns;
-  InDouble2<AzimuthDifferenceOp>(d, slope, turns, ax, ay, bx, by);
+HWY_INLINE Vec<D> AngleOfSlope(D d, Vec<D> slope, Vec<D> turns) {
   const Vec<D> y = hn::Mul(slope, slope);
   Vec<D> p;
   if constexpr (A == Accuracy::kFast) {
@@ -567,6 +554,33 @@ HWY_INLINE Vec<D> AzimuthDifference(D d, Vec<D> ax, Vec<D> ay, Vec<D> bx, Vec<D>
   // pi/4 in two parts.
   return hn::MulAdd(turns, Const(d, kIsFloat<D> ? 0.785398185253143310546875 : 0.78539816339744828),
                     hn::MulAdd(turns, Const(d, kIsFloat<D> ? -2.18556941e-8 : 3.06161699786838e-17), atan));
+}
+
+// Azimuths' difference from the sine and cosine of plane vectors: phi = turns pi/4 + atan(slope), where
+// products of floats are exact in double lanes.
+struct AzimuthDifferenceOp {
+  template <class DD>
+  static HWY_INLINE void Run(DD dd, Vec<DD>& slope, Vec<DD>& turns, Vec<DD> ax, Vec<DD> ay, Vec<DD> bx,
+                             Vec<DD> by) {
+    Vec<DD> p, p_tail, q, q_tail;
+    TwoProduct(dd, ax, by, p, p_tail);
+    TwoProduct(dd, ay, bx, q, q_tail);
+    const Vec<DD> sine = hn::Abs(hn::Add(hn::Sub(p, q), hn::Sub(p_tail, q_tail)));
+    const Vec<DD> dot = hn::MulAdd(ax, bx, hn::Mul(ay, by));
+    SlopeOfAngle(dd, slope, turns, sine, hn::Abs(dot));
+    // From the other half turn.
+    const auto behind = hn::Lt(dot, hn::Zero(dd));
+    slope = hn::IfThenElse(behind, hn::Neg(slope), slope);
+    turns = hn::IfThenElse(behind, hn::Sub(Const(dd, 4), turns), turns);
+  }
+};
+
+// The angle in [0, pi] between the azimuths of (ax, ay) and (bx, by); 0 where either vector is 0.
+template <Accuracy A, class D>
+HWY_INLINE Vec<D> AzimuthDifference(D d, Vec<D> ax, Vec<D> ay, Vec<D> bx, Vec<D> by) {
+  Vec<D> slope, turns;
+  InDouble2<AzimuthDifferenceOp>(d, slope, turns, ax, ay, bx, by);
+  return AngleOfSlope<A>(d, slope, turns);
 }
 
 // The factor Q(t) of 1 - sqrt(pi) a erfcx(a) = t^2 Q(t), t = 1/(1 + 0.3 a), for a >= 0: smooth and positive,

@@ -6,6 +6,7 @@
 #include "microlane/beckmann.h"             // IWYU pragma: export
 #include "microlane/coupled.h"              // IWYU pragma: export
 #include "microlane/fresnel.h"              // IWYU pragma: export
+#include "microlane/gaussian.h"             // IWYU pragma: export
 #include "microlane/ggx.h"                  // IWYU pragma: export
 #include "microlane/half_vector.h"          // IWYU pragma: export
 #include "microlane/half_vector_density.h"  // IWYU pragma: export

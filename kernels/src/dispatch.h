@@ -62,6 +62,7 @@ const FamilyFunction* RoughnessTable();
 const FamilyFunction* AlbedoLookupTable();
 const FamilyFunction* CoupledTable();
 const FamilyFunction* InterfacedTable();
+const FamilyFunction* GaussianTable();
 template <Normals kNormals>
 const FamilyFunction* NormalsTable();
 template <Normals kNormals>

@@ -75,6 +75,7 @@ const FamilyFunction* TableOf(std::size_t kernel) {
          : family == "albedo"              ? AlbedoLookupTable()
          : family == "coupled"             ? CoupledTable()
          : family == "interfaced"          ? InterfacedTable()
+         : family == "gaussian"            ? GaussianTable()
          : family == "half_vector_density" ? HalfVectorDensityTable()
                                            : HalfVectorTable();
 }

@@ -11,6 +11,7 @@
 #include "oracle/beckmann.h"
 #include "oracle/coupled.h"
 #include "oracle/fresnel.h"
+#include "oracle/gaussian.h"
 #include "oracle/ggx.h"
 #include "oracle/half_vector.h"
 #include "oracle/masking.h"
@@ -457,6 +458,28 @@ constexpr Entry kEntries[] = {
     {"phong.G1_smith",
      [](Call& call) {
        call.out[0] = PhongSmith{{call.in[6]}}.G1(Direction(call.in), Direction(call.in + 3));
+     }},
+
+    {"gaussian.C", [](Call& call) { call.out[0] = MakeGaussian(call.in[0]).C(); }},
+    {"gaussian.D", [](Call& call) { call.out[0] = MakeGaussian(call.in[3]).D(Direction(call.in)); }},
+    {"gaussian.D_visible_v_cavity",
+     [](Call& call) {
+       call.out[0] = VCavityDensity(MakeGaussian(call.in[6]), Direction(call.in), Direction(call.in + 3));
+     }},
+    {"gaussian.eval_v_cavity",
+     [](Call& call) {
+       const Vec wi = Direction(call.in), wo = Direction(call.in + 3);
+       const Geometry g = MakeGeometry(wi, wo, 1);
+       if (g.lobe != kReflection) return void(call.out[0] = 0);
+       const Real of_i = VCavityG1(wi, g.h), of_o = VCavityG1(wo, g.h);
+       call.out[0] = MakeGaussian(call.in[6]).D(g.h) * (of_i < of_o ? of_i : of_o) / (4 * abs(wi.z));
+     }},
+    {"gaussian.sample_normal",
+     [](Call& call) {
+       const Gaussian gaussian = MakeGaussian(call.in[2]);
+       const Real theta = gaussian.SampleTheta(call.in[0]);
+       Store(Gaussian::Normal(theta, call.in[1]), call.out);
+       call.out[3] = gaussian.PdfOfTheta(theta);
      }},
 
     {"fresnel.dielectric", [](Call& call) { call.out[0] = FresnelDielectric(call.in[0], call.in[1]); }},

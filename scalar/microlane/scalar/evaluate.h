@@ -19,6 +19,7 @@
 #include "microlane/scalar/coupled.h"
 #include "microlane/scalar/direction.h"
 #include "microlane/scalar/fresnel.h"
+#include "microlane/scalar/gaussian.h"
 #include "microlane/scalar/ggx.h"
 #include "microlane/scalar/half_vector.h"
 #include "microlane/scalar/masking.h"
@@ -417,6 +418,26 @@ constexpr auto Entries() {
       Entry<Real>{"phong.G1_smith",
                   [](const Real* in, Real* out, Transport) {
                     out[0] = G1(PhongSmith<Real>{in[6]}, Load(in), Load(in + 3));
+                  }},
+
+      Entry<Real>{"gaussian.C",
+                  [](const Real* in, Real* out, Transport) {
+                    const Gaussian<Real> gaussian{in[0]};
+                    out[0] = IsNan(gaussian) ? kNan<Real> : static_cast<Real>(gaussian.Normalisation());
+                  }},
+      Entry<Real>{"gaussian.D",
+                  [](const Real* in, Real* out, Transport) { out[0] = Gaussian<Real>{in[3]}.D(Load(in)); }},
+      Entry<Real>{"gaussian.D_visible_v_cavity",
+                  [](const Real* in, Real* out, Transport) {
+                    out[0] = DVisibleVCavity(Gaussian<Real>{in[6]}, Load(in), Load(in + 3));
+                  }},
+      Entry<Real>{"gaussian.eval_v_cavity",
+                  [](const Real* in, Real* out, Transport) {
+                    out[0] = Gaussian<Real>{in[6]}.EvalVCavity(Load(in), Load(in + 3));
+                  }},
+      Entry<Real>{"gaussian.sample_normal",
+                  [](const Real* in, Real* out, Transport) {
+                    Store(Gaussian<Real>{in[2]}.SampleNormal(in[0], in[1]), out);
                   }},
 
       Entry<Real>{"fresnel.dielectric",
