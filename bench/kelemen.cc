@@ -16,28 +16,9 @@
 namespace microlane {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846, kDegree = kPi / 180;
+constexpr double kPi = 3.14159265358979323846;
 constexpr double kIncidences[] = {22.5, 45, 67.5};
 constexpr float kMatteM = 0.8f, kIndex = 1.7f;
-
-// Directions of the plane of incidence from one horizon to the other, and one that light comes from.
-struct Plane {
-  explicit Plane(double incidence) {
-    for (int i = -899; i <= 899; ++i) {
-      const double angle = 0.1 * i * kDegree;
-      x.push_back(static_cast<float>(std::sin(angle)));
-      z.push_back(static_cast<float>(std::cos(angle)));
-    }
-    y.assign(x.size(), 0);
-    from_x.assign(x.size(), static_cast<float>(-std::sin(incidence * kDegree)));
-    from_z.assign(x.size(), static_cast<float>(std::cos(incidence * kDegree)));
-  }
-  std::size_t size() const { return x.size(); }
-  Directions<float> out() const { return {x.data(), y.data(), z.data()}; }
-  Directions<float> from() const { return {from_x.data(), y.data(), from_z.data()}; }
-
-  std::vector<float> x, y, z, from_x, from_z;
-};
 
 // What values of the plane's directions draw.
 Curve Polar(const Plane& plane, const std::vector<float>& values, const std::string& title, int colour,
@@ -46,17 +27,6 @@ Curve Polar(const Plane& plane, const std::vector<float>& values, const std::str
   for (std::size_t i = 0; i < plane.size(); ++i) {
     curve.x.push_back(static_cast<double>(values[i] * plane.x[i]));
     curve.y.push_back(static_cast<double>(values[i] * plane.z[i]));
-  }
-  return curve;
-}
-
-// The same over degrees from the normal, positive on the side of the mirror direction.
-Curve OverDegrees(const Plane& plane, const std::vector<float>& values, const std::string& title, int colour,
-                  bool dashed) {
-  Curve curve{title, colour, dashed, {}, {}};
-  for (std::size_t i = 0; i < plane.size(); ++i) {
-    curve.x.push_back(0.1 * static_cast<double>(i) - 89.9);
-    curve.y.push_back(static_cast<double>(values[i]));
   }
   return curve;
 }

@@ -7,14 +7,9 @@
 #include <string>
 #include <vector>
 
-namespace microlane {
+#include "curves.h"
 
-struct Curve {
-  std::string title;
-  int colour;  // of the plots' colours
-  bool dashed;
-  std::vector<double> x, y;
-};
+namespace microlane {
 
 // By the lanes of the chosen target, high accuracy. Lobes are in the plane of incidence: x and y are the part
 // along the surface, on the side of the mirror direction, and that along the normal.

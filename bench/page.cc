@@ -372,6 +372,20 @@ std::string MakePage(const ReportData& data, const std::filesystem::path& folder
     html += Image(folder, CavityPlot(j), "Simulated BRDF, " + data.cavities[j].title);
   }
   html +=
+      "<h2>Interfaced Lambertian surfaces</h2>\n<p>The figures of Meneveaux 2015, by this target. Fig. 4 "
+      "shows "
+      "the spectra of "
+      "painted samples, which are not at hand; here is what a body of any K<sub>d</sub> gives back of "
+      "diffuse "
+      "light. Fig. 8: "
+      "with the masking of V-cavities, sums over 16384 normals; with Smith's, the rule of order 16; "
+      "Beckmann's "
+      "and GGX's "
+      "alpha is sqrt(2) sigma. Dashed in Fig. 9: Oren and Nayar's qualitative model for the body.</p>\n" +
+      Image(folder, kFlatBodyPlot, "Flat interfaced Lambertian surfaces") +
+      Image(folder, kRoughBodyPlot, "Rough interfaced Lambertian bodies") +
+      Image(folder, kOrenNayarPlot, "Interfaced Lambertian facets against Oren-Nayar");
+  html +=
       "<h2>Tables</h2>\n<p>Of albedo: the largest error between entries, against the quadrature that makes "
       "them. Of "
       "slopes that a user gives as f(r): relative errors as the tables state them, of D, of Lambda, and of "

@@ -331,6 +331,38 @@ std::string AlbedoScript(const KelemenFigures& figures) {
       degrees("Fig. 5: coupled, k = 1, n = 1.7, m = 0.8") + CurvesScript(figures.coupled, "s"));
 }
 
+// Curves over degrees of the plane of incidence, of values from `low` to `high`; logarithmic where low > 0.
+std::string PlaneScript(const std::string& title, const std::string& value, double low, double high,
+                        const std::vector<Curve>& curves, const std::string& name) {
+  return fmt::format(
+             "set title '{}'\nset grid xtics ytics lt 1 lw 0.5 lc rgb '#dddddd'\nset key top left Left "
+             "reverse\nset xlabel 'degrees from the normal, light from -60'\nset ylabel '{}'\nset xrange "
+             "[-90:90]\nset xtics 30\n{}set yrange [{:g}:{:g}]\n",
+             title, value, low > 0 ? "set logscale y\n" : "unset logscale\n", low, high) +
+         CurvesScript(curves, name);
+}
+
+std::string FlatBodyScript(const MeneveauxFigures& figures) {
+  return SideBySide(
+      "set title 'For Fig. 4: the body of a flat surface'\nset grid xtics ytics lt 1 lw 0.5 lc rgb "
+      "'#dddddd'\nset key top left Left reverse\nset xlabel 'K_d'\nset ylabel 'R_b'\nset xrange "
+      "[0:1]\nset yrange [0:1]\n" +
+          CurvesScript(figures.albedos, "a"),
+      PlaneScript("Fig. 5: flat, K_d = 0.6", "f, 1/sr", 0, 0.25, figures.flat, "f"));
+}
+
+std::string RoughBodyScript(const MeneveauxFigures& figures) {
+  const char* const title = "Fig. 8: bodies of n = {}, K_d = 0.6, sigma = 0.4";
+  return SideBySide(
+      PlaneScript(fmt::format(fmt::runtime(title), 1.1), "f, 1/sr", 0.01, 1, figures.rough[0], "r"),
+      PlaneScript(fmt::format(fmt::runtime(title), 1.5), "f, 1/sr", 0.01, 1, figures.rough[1], "s"));
+}
+
+std::string OrenNayarScript(const MeneveauxFigures& figures) {
+  return PlaneScript("Fig. 9: K_d = 0.6, n = 1.5, Gaussian of the angle, V-cavities", "f, 1/sr", 0.02, 20,
+                     figures.oren_nayar, "o");
+}
+
 // Error over size and over the time of making, of both kinds of tables.
 std::string TablesScript(const ReportData& data) {
   std::string script;
@@ -419,6 +451,9 @@ std::string WritePlots(const ReportData& data, const std::filesystem::path& fold
   plots.emplace_back(kLobesPlot, LobesScript(data.kelemen));
   plots.emplace_back(kMattePlot, MatteScript(data.kelemen));
   plots.emplace_back(kAlbedoPlot, AlbedoScript(data.kelemen));
+  plots.emplace_back(kFlatBodyPlot, FlatBodyScript(data.meneveaux));
+  plots.emplace_back(kRoughBodyPlot, RoughBodyScript(data.meneveaux));
+  plots.emplace_back(kOrenNayarPlot, OrenNayarScript(data.meneveaux));
   plots.emplace_back(kTablesPlot, TablesScript(data));
   for (std::size_t j = 0; j < data.cavities.size(); ++j) {
     const CavityFigure& figure = data.cavities[j];

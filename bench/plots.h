@@ -18,9 +18,12 @@ inline constexpr const char* kOverviewPlot = "plots/overview";
 inline constexpr const char* kSpeedPlot = "plots/speed";
 inline constexpr const char* kErrorPlot = "plots/error";
 inline constexpr const char* kFloorPlot = "plots/floor";
-inline constexpr const char* kLobesPlot = "plots/kelemen_lobes";    // Kelemen 2001 Figs. 2, 6
-inline constexpr const char* kAlbedoPlot = "plots/kelemen_albedo";  // Figs. 3, 5
-inline constexpr const char* kMattePlot = "plots/kelemen_matte";    // Fig. 4
+inline constexpr const char* kLobesPlot = "plots/kelemen_lobes";             // Kelemen 2001 Figs. 2, 6
+inline constexpr const char* kAlbedoPlot = "plots/kelemen_albedo";           // Figs. 3, 5
+inline constexpr const char* kMattePlot = "plots/kelemen_matte";             // Fig. 4
+inline constexpr const char* kFlatBodyPlot = "plots/meneveaux_flat";         // Meneveaux 2015 Figs. 4, 5
+inline constexpr const char* kRoughBodyPlot = "plots/meneveaux_rough";       // Fig. 8
+inline constexpr const char* kOrenNayarPlot = "plots/meneveaux_oren_nayar";  // Fig. 9
 std::string CavityPlot(std::size_t figure);
 inline constexpr const char* kTablesPlot = "plots/tables";
 

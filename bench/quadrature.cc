@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <random>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -66,6 +67,11 @@ class Pairs {
   }
 
   std::size_t size() const { return in_[0].size(); }
+  const std::vector<T>& Input(std::string_view name) const {
+    std::size_t k = 0;
+    while (inputs_.name[k] != name) ++k;
+    return in_[k];
+  }
 
   std::vector<T>& Eval(const QuadratureRule& rule, Accuracy accuracy) {
     Call<T> call;
@@ -94,6 +100,92 @@ class Pairs {
   std::vector<T> out_;
 };
 
+// One random normal for each pair of directions, several times: the sampler's call and then the estimator's.
+class RandomNormals {
+ public:
+  static constexpr std::size_t kRepeats = 16;
+
+  RandomNormals(const DiffuseKernelPlace& place, bool visible, const Pairs<float>& pairs)
+      : sampler_(NormalKernel(place.normals,
+                              visible ? NormalQuantity::kSampleVisible : NormalQuantity::kSampleNormal,
+                              RoughnessKind::kAnisotropic)),
+        estimator_(DiffuseKernel({place.normals, place.scatterer,
+                                  FindDiffuseQuantity(DielectricQuantity::kEvalNormal,
+                                                      DielectricQuantity::kCorrelated, visible)})),
+        pairs_(pairs.size()) {
+    std::mt19937_64 random(28);
+    std::uniform_real_distribution<float> uniform;
+    for (std::vector<float>& u : u_) {
+      u.resize(size());
+      for (float& x : u) x = std::min(uniform(random), 0x1.fffffep-1f);
+    }
+    const Names inputs = Split(kKernels[estimator_].inputs);
+    for (std::size_t k = 0; k < inputs.count; ++k) {
+      if (inputs.name[k][0] == 'm') continue;
+      const std::vector<float>& values = pairs.Input(inputs.name[k]);
+      for (std::size_t i = 0; i < kRepeats; ++i) in_[k].insert(in_[k].end(), values.begin(), values.end());
+    }
+    for (std::vector<float>& m : m_) m.resize(size());
+    out_.resize(size());
+  }
+
+  std::size_t size() const { return kRepeats * pairs_; }
+  std::string_view id() const { return kKernels[estimator_].id; }
+
+  const std::vector<float>& Eval(Accuracy accuracy) {
+    const Names sampler = Split(kKernels[sampler_].inputs), estimator = Split(kKernels[estimator_].inputs);
+    Call<float> call;
+    for (std::size_t k = 0; k < sampler.count; ++k) {
+      const std::string_view name = sampler.name[k];
+      call.in[k] = name == "u1"         ? u_[0].data()
+                   : name == "u2"       ? u_[1].data()
+                   : name[0] == 'v'     ? in_[name[1] - 'x'].data()
+                   : name.back() == 'x' ? in_[estimator.per_lane].data()
+                                        : in_[estimator.per_lane + 1].data();
+    }
+    for (std::size_t k = 0; k < 4; ++k) call.out[k] = m_[k].data();
+    RunKernel(sampler_, accuracy, call, size());
+    for (std::size_t k = 0; k < estimator.count; ++k) {
+      call.in[k] = estimator.name[k][0] == 'm' ? m_[estimator.name[k][1] - 'x'].data() : in_[k].data();
+    }
+    call.out[0] = out_.data();
+    RunKernel(estimator_, accuracy, call, size());
+    return out_;
+  }
+
+ private:
+  std::size_t sampler_, estimator_, pairs_;
+  std::array<std::vector<float>, 2> u_;
+  std::array<std::vector<float>, 4> m_;  // and its density
+  std::array<std::vector<float>, kMaxInputs> in_;
+  std::vector<float> out_;
+};
+
+// The standard deviation of one estimate, relative to the value, in place of an error.
+void PrintEstimator(const DiffuseKernelPlace& place, bool visible, double alpha, const Pairs<float>& pairs,
+                    const std::vector<double>& exact, const Request& request) {
+  RandomNormals normals(place, visible, pairs);
+  const std::vector<float>& got = normals.Eval(Accuracy::kStandard);
+  double sum = 0, largest = 0;
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    double of_pair = 0;
+    for (std::size_t k = 0; k < RandomNormals::kRepeats; ++k) {
+      const double error = static_cast<double>(got[k * exact.size() + i]) / exact[i] - 1;
+      of_pair += error * error / static_cast<double>(RandomNormals::kRepeats);
+    }
+    sum += of_pair;
+    largest = std::max(largest, std::sqrt(of_pair));
+  }
+  fmt::print("{:<48} {:>5g} {:>5} {:>7} {:>9.1e} {:>9.1e}", normals.id(), alpha, "-", 1,
+             std::sqrt(sum / static_cast<double>(exact.size())), largest);
+  for (const Accuracy accuracy : kAccuracies) {
+    const Timing time = Measure(request.seconds, [&] { normals.Eval(accuracy); });
+    fmt::print(" {:>8}", Short(time.min / static_cast<double>(normals.size())));
+  }
+  fmt::print("\n");
+  std::fflush(stdout);
+}
+
 int NormalsPerOrder2(std::size_t kernel) {
   if (kernel < kFirstMeanFresnelKernel) return 3;
   return PlaceOfMeanFresnelKernel(kernel).normals == Normals::kGgx ? 2 : 1;
@@ -113,7 +205,7 @@ void PrintKernel(std::size_t kernel, double alpha, const Request& request) {
       sum += error * error;
       largest = std::max(largest, error);
     }
-    fmt::print("{:<32} {:>5g} {:>5} {:>7} {:>9.1e} {:>9.1e}", kKernels[kernel].id, alpha, order,
+    fmt::print("{:<48} {:>5g} {:>5} {:>7} {:>9.1e} {:>9.1e}", kKernels[kernel].id, alpha, order,
                NormalsPerOrder2(kernel) * order * order, std::sqrt(sum / static_cast<double>(exact.size())),
                largest);
     for (const Accuracy accuracy : kAccuracies) {
@@ -123,13 +215,17 @@ void PrintKernel(std::size_t kernel, double alpha, const Request& request) {
     fmt::print("\n");
     std::fflush(stdout);
   }
+  if (kernel >= kFirstMeanFresnelKernel) return;
+  for (const bool visible : {false, true}) {
+    PrintEstimator(PlaceOfDiffuseKernel(kernel), visible, alpha, floats, exact, request);
+  }
 }
 
 void Run(const Request& request) {
   UseTarget(request.target);
   fmt::print("target {}, alpha_y = {:g} alpha_x, relative error against order {}; ns per lane\n",
              ChosenTarget(), request.ratio, QuadratureRule::kMaxOrder);
-  fmt::print("{:<32} {:>5} {:>5} {:>7} {:>9} {:>9}", "kernel", "alpha", "order", "normals", "rms", "largest");
+  fmt::print("{:<48} {:>5} {:>5} {:>7} {:>9} {:>9}", "kernel", "alpha", "order", "normals", "rms", "largest");
   for (const Accuracy accuracy : kAccuracies) fmt::print(" {:>8}", Name(accuracy));
   fmt::print("\n");
   for (std::size_t kernel = kFirstDiffuseKernel; kernel < kNumKernels; ++kernel) {
@@ -156,7 +252,11 @@ void AddQuadrature(CLI::App& app) {
       ->add_option("--seconds", request->seconds, "How long to repeat each measurement (the default: 0.03)")
       ->check(RefuseNegative);
   quadrature->footer(
-      "Errors are those of double lanes over 972 pairs of directions, each from the normal to 85 degrees; "
+      "Rows of one_normal and one_visible_normal are of one random normal, with the time of drawing it: "
+      "their "
+      "errors are\n"
+      "standard deviations. Other errors are those of double lanes over 972 pairs of directions, each from "
+      "the normal to 85 degrees; "
       "the order "
       "is that of\n"
       "the rule. Facets are of index 1.5, over a body of albedo 0.8, of gold, or of f0 = 0.04.");

@@ -277,6 +277,7 @@ void Run(const Request& request) {
   data.glasses = MeasureGlasses();
   progress.Show("making tables", 0, 1, "");
   data.kelemen = MeasureKelemen();
+  data.meneveaux = MeasureMeneveaux();
   data.albedo_tables = MeasureAlbedoTables();
   data.radial_tables = MeasureRadialTables();
   progress.Show("tracing V-cavities", 0, 1, "");

@@ -12,6 +12,7 @@
 #include "ceilings.h"
 #include "glasses.h"
 #include "kelemen.h"
+#include "meneveaux.h"
 #include "performance.h"
 #include "textbook_accuracy.h"
 
@@ -89,6 +90,7 @@ struct ReportData {
   std::vector<StabilityResult> stability;  // the results of a row together
   std::vector<GlassCurve> glasses;
   KelemenFigures kelemen;
+  MeneveauxFigures meneveaux;
   std::vector<CavityFigure> cavities;
   std::vector<TableCost> albedo_tables, radial_tables;
   std::vector<Goal> goals;

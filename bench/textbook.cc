@@ -987,9 +987,62 @@ struct InterfacedFacet {
   float operator()(float cos_i, float cos_o) const {
     return (1 - FrDielectric(cos_i, n)) * (1 - FrDielectric(cos_o, n)) * k / (Sqr(n) * (1 - k * r_i));
   }
+  // R_s/(R_s + R_b) of Meneveaux 2015 section 4.
+  float SurfaceShare() const {
+    const float r_s = DiffuseReflectance(n), r_b = Sqr(1 - r_s) * k / (Sqr(n) * (1 - k * r_i));
+    return r_s + r_b > 0 ? r_s / (r_s + r_b) : 0;
+  }
+  template <class Distribution>
+  float Pdf(const Distribution& distribution, const Vec3& wi, const Vec3& wo) const {
+    const float surface = SurfaceShare();
+    return surface * PdfVisibleReflection<false>(distribution, wi, wo) +
+           (1 - surface) * AbsCosTheta(wo) / kPi;
+  }
 };
 void FacetBody(const float* in, float* out, Transport) {
   out[0] = in[0] > 0 && in[1] > 0 ? InterfacedFacet(in + 2)(in[0], in[1]) / kPi : 0;
+}
+
+// One normal's part of Meneveaux 2015 Eq. 28, over D cos or over D_visible.
+template <class Distribution, class Facet>
+float OneNormal(const DielectricQuantity& row, const Distribution& distribution, const Facet& facet,
+                const Vec3& wi, const Vec3& wo, const Vec3& wm, float masking) {
+  const float side = wi.z < 0 ? -1.f : 1.f;
+  const float cos_i = side * Dot(wi, wm), cos_o = side * Dot(wo, wm);
+  if (cos_i <= 0 || cos_o <= 0 || wm.z <= 0) return 0;
+  const float f = facet(cos_i, cos_o) / kPi;
+  return row.visible ? f * cos_o * masking * (1 + distribution.Lambda(wi))
+                     : f * cos_i * cos_o * masking / (AbsCosTheta(wi) * CosTheta(wm));
+}
+
+// Interface or body, with the value of both over the density of both; the body's by one more normal.
+template <class Distribution>
+void SampleWithInterface(const Distribution& distribution, const InterfacedFacet& facet, const Vec3& wi,
+                         const float* u, float* out) {
+  std::fill_n(out, 6, 0.f);
+  if (wi.z == 0) return;
+  const Vec3 up{wi.x, wi.y, std::abs(wi.z)};
+  const bool specular = u[2] < facet.SurfaceShare();
+  Vec3 wo;
+  if (specular) {
+    wo = Reflect(up, distribution.SampleVisibleNormal(up, u[0], u[1]));
+  } else {
+    const float radius = std::sqrt(u[0]), phi = 2 * kPi * u[1];
+    wo = {radius * std::cos(phi), radius * std::sin(phi), std::sqrt(std::max(0.f, 1 - u[0]))};
+  }
+  if (wo.z <= 0) return;
+  const Vec3 wm = distribution.SampleVisibleNormal(up, u[3], u[4]), wh = Normalize(up + wo);
+  const float pdf = facet.Pdf(distribution, up, wo);
+  const float masking = Masking<DielectricQuantity::kCorrelated>(distribution, up, wo, {0, 0, 1});
+  constexpr DielectricQuantity kVisible = kDiffuseQuantities[FindDiffuseQuantity(
+      DielectricQuantity::kEvalNormal, DielectricQuantity::kCorrelated, true)];
+  const float f_s = FrDielectric(Dot(up, wh), facet.n) * distribution.D(wh) * masking / (4 * up.z);
+  out[0] = wo.x;
+  out[1] = wo.y;
+  out[2] = wi.z < 0 ? -wo.z : wo.z;
+  out[3] = (f_s + OneNormal(kVisible, distribution, facet, up, wo, wm, masking)) / pdf;
+  out[4] = pdf;
+  out[5] = specular ? 1.f : 2.f;
 }
 
 // Heitz 2014 Eq. 31 and Meneveaux 2015 Eq. 12 by normals from D cos at the midpoints of a grid of random
@@ -998,14 +1051,30 @@ void FacetBody(const float* in, float* out, Transport) {
 template <class Distribution, std::size_t kKernel>
 void DiffuseSurface(const float* in, float* out, Transport) {
   constexpr DiffuseKernelPlace place = PlaceOfDiffuseKernel(kKernel);
-  constexpr DielectricQuantity::Joint kJoint = kDiffuseQuantities[place.quantity].joint;
+  constexpr DielectricQuantity kRow = kDiffuseQuantities[place.quantity];
+  constexpr DielectricQuantity::Joint kJoint = kRow.joint;
   using Facet =
       std::conditional_t<place.scatterer == Scatterer::kInterfaced, InterfacedFacet, LambertianFacet>;
-  const Facet facet(in + 8);
-  const Distribution distribution = Distribution::Make(in + 6);
-  const Vec3 wi = Load(in), wo = Load(in + 3);
+  constexpr std::size_t kParameters = Split(kKernels[kKernel].inputs).per_lane;
+  const Facet facet(in + kParameters + 2);
+  const Distribution distribution = Distribution::Make(in + kParameters);
+  const Vec3 wi = Load(in);
+  if constexpr (kRow.what == DielectricQuantity::kSample) {
+    SampleWithInterface(distribution, facet, wi, in + 3, out);
+    return;
+  }
+  const Vec3 wo = Load(in + 3);
   out[0] = 0;
   if (wi.z * wo.z <= 0) return;
+  if constexpr (kRow.what == DielectricQuantity::kEvalNormal) {
+    out[0] = OneNormal(kRow, distribution, facet, wi, wo, Load(in + 6),
+                       Masking<kJoint>(distribution, wi, wo, {0, 0, 1}));
+    return;
+  }
+  if constexpr (kRow.what == DielectricQuantity::kPdf) {
+    out[0] = facet.Pdf(distribution, wi, wo);
+    return;
+  }
   const int order = static_cast<int>(in[Split(kKernels[kKernel].inputs).columns]);
   const float side = wi.z < 0 ? -1.f : 1.f, n = static_cast<float>(order);
   float sum = 0;

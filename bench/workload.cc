@@ -46,9 +46,7 @@ class Lanes {
     do {
       Draw();
     } while (!live_);
-    u1_ = Uniform();
-    u2_ = Uniform();
-    u3_ = Uniform();
+    for (double& u : u_) u = Uniform();
     x_ = -20 * Uniform();
     a_ = std::pow(10, 3 * Uniform() - 2);
   }
@@ -62,7 +60,7 @@ class Lanes {
       case 'w':
         return Component(name, name[1] == 'i' ? wi_ : wo_);
       case 'u':
-        return name == "u1" ? u1_ : name == "u2" ? u2_ : u3_;
+        return u_[name[1] - '1'];
       default:
         return name == "cos_i"      ? Dot(wi_, facing_)
                : name == "cos_o"    ? Dot(wo_, facing_)
@@ -126,7 +124,7 @@ class Lanes {
   bool beckmann_, isotropic_, student_, table_, reflects_, transmits_;
   std::mt19937_64 random_{20070625};
   std::uniform_real_distribution<double> uniform_{0, 1};
-  double eta_ = 1.5, alpha_x_ = 0.3, alpha_y_ = 0.15, gamma_ = 2.5, u1_ = 0, u2_ = 0, u3_ = 0, x_ = 0, a_ = 0;
+  double eta_ = 1.5, alpha_x_ = 0.3, alpha_y_ = 0.15, gamma_ = 2.5, u_[5] = {}, x_ = 0, a_ = 0;
   Vec wi_{}, wo_{}, m_{}, facing_{};
   bool live_ = false;
 };

@@ -167,21 +167,45 @@ void AppendReflectors(std::vector<Row<T>>& rows, std::index_sequence<kPlace...>)
    ...);
 }
 
-// The typed function of a kernel of facets that scatter, with the first lane's order.
+// The typed function of a kernel of facets that scatter, of sums with the first lane's order.
 template <class T, std::size_t kKernel>
 void RunDiffuse(Arguments<T>& a) {
   constexpr DiffuseKernelPlace place = PlaceOfDiffuseKernel(kKernel);
-  constexpr JointMasking masking = kDiffuseQuantities[place.quantity].joint == DielectricQuantity::kSeparable
+  constexpr DielectricQuantity row = kDiffuseQuantities[place.quantity];
+  constexpr bool interfaced = place.scatterer == Scatterer::kInterfaced;
+  constexpr JointMasking masking = row.joint == DielectricQuantity::kSeparable
                                        ? JointMasking::kSeparable
                                        : JointMasking::kHeightCorrelated;
-  const QuadratureRule rule(static_cast<double>(a.in[Split(kKernels[kKernel].inputs).columns][0]));
-  const RoughnessOf<place.normals, T> roughness{a.Value(6), a.Value(7)};
-  if constexpr (place.scatterer == Scatterer::kInterfaced) {
-    InterfacedBodyCalls<place.normals>::Eval(a.n, a.Direction(0), a.Direction(3), roughness,
-                                             {a.Value(8), a.Value(9)}, rule, a.Out(0), a.accuracy, masking);
+  constexpr Names inputs = Split(kKernels[kKernel].inputs);
+  constexpr std::size_t first = inputs.per_lane;
+  const RoughnessOf<place.normals, T> roughness{a.Value(first), a.Value(first + 1)};
+  const Directions<T> wi = a.Direction(0), wo = a.Direction(3);
+  if constexpr (row.what == DielectricQuantity::kSample) {
+    InterfacedBodyCalls<place.normals>::SampleWithInterface(
+        a.n, wi, a.Lanes(3), a.Lanes(4), a.Lanes(5), a.Lanes(6), a.Lanes(7), roughness,
+        {a.Value(first + 2), a.Value(first + 3)}, a.Samples(), a.accuracy);
+  } else if constexpr (row.what == DielectricQuantity::kPdf) {
+    InterfacedBodyCalls<place.normals>::PdfWithInterface(
+        a.n, wi, wo, roughness, {a.Value(first + 2), a.Value(first + 3)}, a.Out(0), a.accuracy);
+  } else if constexpr (row.what == DielectricQuantity::kEvalNormal) {
+    constexpr Sampling sampling = row.visible ? Sampling::kVisibleNormals : Sampling::kNormals;
+    if constexpr (interfaced) {
+      InterfacedBodyCalls<place.normals>::EvalOneNormal(a.n, wi, wo, a.Direction(6), roughness,
+                                                        {a.Value(first + 2), a.Value(first + 3)}, a.Out(0),
+                                                        a.accuracy, masking, sampling);
+    } else {
+      RoughDiffuseCalls<place.normals>::EvalOneNormal(a.n, wi, wo, a.Direction(6), roughness, a.Out(0),
+                                                      a.accuracy, masking, sampling);
+    }
   } else {
-    RoughDiffuseCalls<place.normals>::Eval(a.n, a.Direction(0), a.Direction(3), roughness, rule, a.Out(0),
-                                           a.accuracy, masking);
+    const QuadratureRule rule(static_cast<double>(a.in[inputs.columns][0]));
+    if constexpr (interfaced) {
+      InterfacedBodyCalls<place.normals>::Eval(a.n, wi, wo, roughness,
+                                               {a.Value(first + 2), a.Value(first + 3)}, rule, a.Out(0),
+                                               a.accuracy, masking);
+    } else {
+      RoughDiffuseCalls<place.normals>::Eval(a.n, wi, wo, roughness, rule, a.Out(0), a.accuracy, masking);
+    }
   }
 }
 

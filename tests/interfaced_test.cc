@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
+#include <iterator>
+#include <random>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -276,6 +278,170 @@ TEST(RoughBody, EnergyIsAtMostOne) {
   }
   EXPECT_GT(largest, 0.9);
   tally.Note(Text(", largest %.6f", largest));
+}
+
+// The mean of one random normal's value is the integral, whose rule is within 1e-6 of it at order 32.
+TEST(OneNormal, MeanIsTheIntegralWithinItsConfidenceInterval) {
+  constexpr std::size_t kSamples = 40000;
+  constexpr double kAngles[][3] = {{30, 50, 100}, {70, 20, 0}, {80, 75, 180}, {60, 60, 30}, {85, 5, 250}};
+  struct Estimator {
+    const char *sampler, *quantity, *exact;
+  };
+  constexpr Estimator kEstimators[] = {
+      {"sample_normal", "eval_one_normal", "eval"},
+      {"sample_normal", "eval_one_normal_separable", "eval_separable"},
+      {"sample_visible_normal", "eval_one_visible_normal", "eval"},
+      {"sample_visible_normal", "eval_one_visible_normal_separable", "eval_separable"}};
+  const double bound = NormalBound(SidakSignificance(1e-4, 2 * 3 * 2 * std::size(kAngles) * 4));
+  std::mt19937_64 random(28);
+  Tally tally("mean over random normals, in standard errors");
+  double spread[2] = {};
+  for (const auto& make : {Ggx, Beckmann}) {
+    for (const float alpha : {0.1f, 0.4f, 1.0f}) {
+      const Distribution distribution = make(alpha, 0.7f * alpha);
+      for (const double n : {1.0, 1.5}) {
+        for (const auto& [theta_i, theta_o, azimuth] : kAngles) {
+          const Direction wi = Spherical(Radians(theta_i), 0.3),
+                          wo = Spherical(Radians(theta_o), 0.3 + Radians(azimuth));
+          for (const Estimator& e : kEstimators) {
+            const bool visible = e.sampler != kEstimators[0].sampler;
+            const Column<double> u1 = UniformNumbers<double>(kSamples, random),
+                                 u2 = UniformNumbers<double>(kSamples, random);
+            const DirectionColumns<double> m =
+                visible
+                    ? RunDirection<double>(distribution.Id(e.sampler), kSamples, {}, wi, u1, u2, distribution)
+                    : RunDirection<double>(distribution.Id(e.sampler), kSamples, {}, u1, u2, distribution);
+            const Column<double> f = RunOne<double>(distribution.Model("interfaced_body", e.quantity),
+                                                    kSamples, {}, wi, wo, m, distribution, n, 0.8);
+            const double exact = RunOne<double>(distribution.Model("interfaced_body", e.exact), 1, {}, wi, wo,
+                                                distribution, n, 0.8, 32.0)[0];
+            double sum = 0, squares = 0;
+            for (const double x : f) {
+              sum += x;
+              squares += x * x;
+            }
+            const double mean = sum / kSamples;
+            const double error = std::sqrt((squares / kSamples - mean * mean) / (kSamples - 1.0));
+            spread[visible] += error * std::sqrt(static_cast<double>(kSamples)) / exact;
+            // Of tables of float wi, and of a wi that is not quite unit.
+            tally.Add(mean - exact, bound * error + 1e-6 * exact, [&] {
+              return Where(distribution, n, 0.8) +
+                     Text(", %s, %g %g %g degrees", e.quantity, theta_i, theta_o, azimuth);
+            });
+          }
+        }
+      }
+    }
+  }
+  const double cases = 2 * 3 * 2 * std::size(kAngles) * 2;
+  tally.Note(Text("; standard deviation %.2f of the value by D cos, %.2f by visible normals",
+                  spread[0] / cases, spread[1] / cases));
+  EXPECT_LT(spread[1], spread[0]);
+}
+
+// K_d = 0 leaves the interface's samples, n = 1 the cosine's; all of them together are a density.
+TEST(PdfWithInterface, HasItsLimitsAndIntegratesToOneButForWhatTheInterfaceLoses) {
+  const Pairs pairs(85);
+  Tally surface("k = 0: pdf_visible_reflection"), body("n = 1: |cos|/pi"),
+      mass("Int pdf dwo = R_b + R_s x Int pdf_visible_reflection dwo");
+  const Rule rule = GaussLegendre(96);
+  constexpr int kAzimuths = 128;
+  for (const auto& make : {Ggx, Beckmann}) {
+    for (const float alpha : {0.3f, 0.6f, 1.0f}) {
+      const Distribution distribution = make(alpha, 0.7f * alpha);
+      const auto pdf = [&](const DirectionColumns<double>& wi, const DirectionColumns<double>& wo, double n,
+                           double k) {
+        return RunOne<double>(distribution.Model("interfaced_body", "pdf_with_interface"), wo.size(), {}, wi,
+                              wo, distribution, n, k);
+      };
+      const auto visible = [&](const DirectionColumns<double>& wi, const DirectionColumns<double>& wo) {
+        return RunOne<double>(distribution.Id("pdf_visible_reflection"), wo.size(), {}, wi, wo, distribution);
+      };
+      const Column<double> of_surface = pdf(pairs.wi, pairs.wo, 1.5, 0),
+                           of_body = pdf(pairs.wi, pairs.wo, 1, 0.5), reflected = visible(pairs.wi, pairs.wo);
+      for (std::size_t i = 0; i < pairs.size(); ++i) {
+        const auto where = [&] { return Where(distribution, 0, 0); };
+        surface.AddRelative(of_surface[i], reflected[i], 1e-12, where);
+        body.AddRelative(of_body[i], pairs.wo.z[i] / kTestPi, 1e-15, where);
+      }
+      for (const double theta : {0.0, 40.0, 70.0}) {
+        DirectionColumns<double> wi, wo;
+        Column<double> solid_angle;
+        for (std::size_t j = 0; j < rule.node.size(); ++j) {
+          for (int k = 0; k < kAzimuths; ++k) {
+            const double angle = kTestPi / 4 * (1 + rule.node[j]);
+            wi.PushBack(Spherical(Radians(theta), 0.7));
+            wo.PushBack(Spherical(angle, (k + 0.5) * 2 * kTestPi / kAzimuths));
+            solid_angle.push_back(rule.weight[j] * kTestPi / 4 * std::sin(angle) * 2 * kTestPi / kAzimuths);
+          }
+        }
+        const double n = 1.5, k = 0.6, r_s = Mean("fresnel.diffuse_external", n),
+                     r_i = Mean("fresnel.diffuse_internal", n);
+        const double r_b = (1 - r_s) * (1 - r_s) * k / (n * n * (1 - k * r_i));
+        const Column<double> both = pdf(wi, wo, n, k), one = visible(wi, wo);
+        double sum = 0, above = 0;
+        for (std::size_t i = 0; i < wo.size(); ++i) {
+          sum += both[i] * solid_angle[i];
+          above += one[i] * solid_angle[i];
+        }
+        mass.Add(sum - (r_s * above + r_b) / (r_s + r_b), 1e-6, [&] { return Where(distribution, n, k); });
+        EXPECT_GT(above, 0.5);
+        EXPECT_LT(sum, 1 + 1e-4);
+      }
+    }
+  }
+}
+
+// Channels give what calls of one give, bit for bit, and touch n lanes.
+TEST(Channels, AreSingleCalls) {
+  const Pairs pairs(85);
+  DirectionColumns<float> wi, wo;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    wi.PushBack({pairs.wi.x[i], pairs.wi.y[i], pairs.wi.z[i]});
+    wo.PushBack({pairs.wo.x[i], pairs.wo.y[i], pairs.wo.z[i]});
+  }
+  std::mt19937_64 random(5);
+  Column<float> lanes_of_n = UniformNumbers<float>(pairs.size(), random);
+  for (float& n : lanes_of_n) n = 1 + 3 * n;
+  const Column<float> lanes_of_k = UniformNumbers<float>(pairs.size(), random);
+  const QuadratureRule rule(6);
+  Tally tally("EvalChannels is Eval");
+  const auto check = [&](auto body, std::size_t n, std::size_t channels, Accuracy accuracy,
+                         JointMasking masking) {
+    constexpr float kUntouched = 12345;
+    std::vector<Column<float>> out(channels, Column<float>(n + 1, kUntouched));
+    std::vector<float*> to;
+    std::vector<Parameter<float>> k;
+    for (std::size_t c = 0; c < channels; ++c) {
+      to.push_back(out[c].data());
+      k.emplace_back(0.1f + 0.2f * static_cast<float>(c));
+    }
+    k.back() = lanes_of_k.data();
+    const Directions<float> from{wi.x.data(), wi.y.data(), wi.z.data()},
+        into{wo.x.data(), wo.y.data(), wo.z.data()};
+    body.EvalChannels(n, from, into, {0.4f, 0.3f}, lanes_of_n.data(), channels, k.data(), rule, to.data(),
+                      accuracy, masking);
+    for (std::size_t c = 0; c < channels; ++c) {
+      Column<float> one(n);
+      body.Eval(n, from, into, {0.4f, 0.3f}, {lanes_of_n.data(), k[c]}, rule, one.data(), accuracy, masking);
+      EXPECT_EQ(out[c][n], kUntouched);
+      for (std::size_t i = 0; i < n; ++i) {
+        EXPECT_GT(one[i], 0);
+        tally.Add(out[c][i] == one[i] ? 0 : 1, 0,
+                  [&] { return Text("channel %zu of %zu, lane %zu", c, channels, i); });
+      }
+    }
+  };
+  for (const Accuracy accuracy : {Accuracy::kHigh, Accuracy::kStandard, Accuracy::kFast}) {
+    for (const JointMasking masking : {JointMasking::kHeightCorrelated, JointMasking::kSeparable}) {
+      for (const std::size_t channels : {1, 3, 5}) {
+        for (const std::size_t n : {std::size_t{1}, std::size_t{37}, pairs.size()}) {
+          check(interfaced_body(), n, channels, accuracy, masking);
+          check(interfaced_body_beckmann(), n, channels, accuracy, masking);
+        }
+      }
+    }
+  }
 }
 
 }  // namespace

@@ -48,6 +48,8 @@ enum Field : int {
   kU1,
   kU2,
   kU3,
+  kU4,
+  kU5,
   kX,
   kA,
   kMu,
@@ -62,11 +64,12 @@ enum Field : int {
   kNumFields
 };
 constexpr std::string_view kFieldNames[] = {
-    "mx",     "my",       "mz",        "vx",        "vy",        "vz",       "wix",     "wiy",     "wiz",
-    "wox",    "woy",      "woz",       "cos_i",     "cos_o",     "alpha",    "alpha_x", "alpha_y", "r_xy",
-    "mean_x", "mean_y",   "moment_xx", "moment_yy", "moment_xy", "exponent", "eta",     "n",       "kappa",
-    "f0",     "Lambda_i", "Lambda_o",  "u1",        "u2",        "u3",       "x",       "a",       "mu",
-    "gamma",  "order",    "k",         "m",         "index",     "n_i",      "sigma",   "tail"};
+    "mx",      "my",   "mz",     "vx",     "vy",        "vz",        "wix",       "wiy",
+    "wiz",     "wox",  "woy",    "woz",    "cos_i",     "cos_o",     "alpha",     "alpha_x",
+    "alpha_y", "r_xy", "mean_x", "mean_y", "moment_xx", "moment_yy", "moment_xy", "exponent",
+    "eta",     "n",    "kappa",  "f0",     "Lambda_i",  "Lambda_o",  "u1",        "u2",
+    "u3",      "u4",   "u5",     "x",      "a",         "mu",        "gamma",     "order",
+    "k",       "m",    "index",  "n_i",    "sigma",     "tail"};
 static_assert(std::size(kFieldNames) == kNumFields && std::size(kInputs) == kNumFields,
               "one field per input");
 
@@ -290,7 +293,7 @@ bool IsCosine(Field field) { return field == kMz || field == kVz || field == kWi
 double Fit(Field field, double x, Values values) {
   const Input& input = kInputs[field];
   if (values == Values::kFloats) x = static_cast<float>(x);
-  if (field == kU1 || field == kU2 || field == kU3) return std::min(std::max(x, 0.0), kLargestU);
+  if (field >= kU1 && field <= kU5) return std::min(std::max(x, 0.0), kLargestU);
   if (field == kOrder) x = std::round(x);
   if (field == kM) x = Nearest(kTableM, x);
   if (field == kIndex) x = Nearest(kTableIndices, x);
@@ -341,6 +344,10 @@ class SceneMaker {
     scene_[kU1] = U();
     scene_[kU2] = U();
     scene_[kU3] = U();
+    if (shape_.has[kU4]) {
+      scene_[kU4] = U();
+      scene_[kU5] = U();
+    }
     scene_[kX] = Exponential();
     scene_[kA] = random_.Chance(0.02)  ? 0
                  : random_.Chance(0.5) ? random_.LogUniform(1e-6, 1e4)
@@ -775,6 +782,8 @@ Scene GridScene(const Shape& shape, Digits& digits) {
   take(kU1, kGridU);
   take(kU2, kGridU);
   take(kU3, kGridU);
+  take(kU4, kGridU);
+  take(kU5, kGridU);
   take(kOrder, kGridOrders);
   take(kK, kGridK);
   take(kM, kTableM);
@@ -855,6 +864,8 @@ class ExtremeMaker {
     scene[kU1] = 0.4;
     scene[kU2] = 0.1;
     scene[kU3] = 0.5;
+    scene[kU4] = 0.3;
+    scene[kU5] = 0.7;
     scene[kCosI] = 0.8;
     scene[kCosO] = -0.9;
     scene[kX] = -1;

@@ -78,8 +78,11 @@ class RandomPoints {
 constexpr std::size_t OracleCost(std::size_t kernel) {
   const std::string_view id = kKernels[kernel].id;
   const auto has = [&](std::string_view part) { return id.find(part) != id.npos; };
-  if (has("mean_fresnel") || has("rough_diffuse") || has("interfaced_body")) return 10;
-  if (has("beckmann") || has("tabulated")) return has("sample_visible") ? 10 : has("sample") ? 3 : 1;
+  if (TakesPrepared(kernel) && (has("mean_fresnel") || has("rough_diffuse") || has("interfaced_body"))) {
+    return 10;
+  }
+  if (has("beckmann") || has("tabulated"))
+    return has("sample_visible") || has("sample_with") ? 10 : has("sample") ? 3 : 1;
   return 1;
 }
 

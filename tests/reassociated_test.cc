@@ -180,8 +180,8 @@ using OpaqueCase =
     RoughReflectorKernel<Dist, ReflectorKernel(
                                    {kNormals, kReflector, FindReflectorQuantity(kWhat, kJoint, kVisible)})>;
 
-template <class Dist, class Radius, Normals kNormals, Scatterer kScatterer>
-using DiffuseCase = RoughDiffuseKernel<Dist, Radius, DiffuseKernel({kNormals, kScatterer, 0})>;
+template <class Dist, class Radius, Normals kNormals, Scatterer kScatterer, std::size_t kQuantity = 0>
+using DiffuseCase = RoughDiffuseKernel<Dist, Radius, DiffuseKernel({kNormals, kScatterer, kQuantity})>;
 
 // K over whole vectors; n is a multiple of every vector's lanes.
 template <class K, size_t... kIn>
@@ -301,7 +301,11 @@ Cases CasesOnTarget() {
       OpaqueCase<Phong, phong, Reflector::kSchlick, DielectricQuantity::kEval>,
       DiffuseCase<Ggx, GgxRadius, ggx, Scatterer::kLambertian>,
       DiffuseCase<Beckmann, BeckmannRadius, beckmann, Scatterer::kLambertian>,
-      DiffuseCase<Ggx, GgxRadius, ggx, Scatterer::kInterfaced>>();
+      DiffuseCase<Ggx, GgxRadius, ggx, Scatterer::kInterfaced>,
+      DiffuseCase<Ggx, GgxRadius, ggx, Scatterer::kInterfaced,
+                  FindDiffuseQuantity(DielectricQuantity::kEvalNormal, DielectricQuantity::kCorrelated)>,
+      DiffuseCase<Ggx, GgxRadius, ggx, Scatterer::kInterfaced,
+                  FindDiffuseQuantity(DielectricQuantity::kPdf, DielectricQuantity::kCorrelated, true)>>();
 }
 
 }  // namespace

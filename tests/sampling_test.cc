@@ -214,10 +214,25 @@ constexpr CoupledCase kCoupledCases[] = {
     {0.7, 0.3, 4, 0},     {0.4, 0.1, 4, 0.7},    {-0.8, 0.3, 1, 0.9},
 };
 
+// An interface over a body, from wi at cos_i: shares of the interface from 0 to 1.
+struct InterfacedCase {
+  Distribution distribution;
+  double cos_i, n, k;
+
+  Direction wi() const { return Spherical(std::acos(cos_i), 0.7); }
+  std::string Text() const { return distribution.Text() + microlane::Text(" cos %g n %g k %g", cos_i, n, k); }
+};
+std::vector<InterfacedCase> InterfacedCases() {
+  return {{Ggx(0.3f, 0.3f), 0.9, 1.5, 0.5},       {Ggx(0.1f, 0.4f), 0.5, 1.5, 0.1},
+          {Ggx(0.8f, 0.5f), -0.2, 2.5, 0.8},      {Ggx(0.3f, 0.2f), 0.7, 1.5, 0},
+          {Ggx(0.3f, 0.2f), 0.7, 1, 0.5},         {Beckmann(0.3f, 0.3f), 0.9, 1.5, 0.2},
+          {Beckmann(0.2f, 0.6f), 0.4, 1.33, 0.1}, {Beckmann(0.8f, 0.5f), -0.3, 4, 1}};
+}
+
 // Sidak's correction over all chi-square tests of this file.
 double ChiSquareSignificance() {
-  std::size_t count = std::size(kCoupledCases) + NormalCases().size() + 2 * VisibleCases().size() +
-                      VCavityCases().size() + TabulatedVisibleCases().size();
+  std::size_t count = std::size(kCoupledCases) + InterfacedCases().size() + NormalCases().size() +
+                      2 * VisibleCases().size() + VCavityCases().size() + TabulatedVisibleCases().size();
   const std::size_t cases = DielectricCases().size();
   for (const DielectricSampler& sampler : kDielectricSamplers) {
     count += (cases + sampler.every - 1) / sampler.every;
@@ -790,6 +805,71 @@ TEST(CoupledSampler, DensityIsItsPdfAndFailuresAreTheRest) {
       return RunOne<double>("coupled.pdf", wo.size(), {}, wi, wo, c.k, c.m, c.index);
     });
     tally.Add(test, kSamples, c.Text());
+  }
+}
+
+// Interface and body: what is drawn is the density of both, failures are what it leaves, and weights have the
+// mean that the integral of both has.
+TEST(InterfacedSampler, DensityIsItsPdfAndWeightsHaveTheMeanOfTheIntegral) {
+  constexpr std::size_t kSamples = 100000;
+  ChiSquareTally tally("sample_with_interface against pdf_with_interface");
+  Tally means("mean weight is Int (f_s + f_b) |cos| dwo");
+  const std::vector<InterfacedCase> cases = InterfacedCases();
+  const double bound = NormalBound(SidakSignificance(kOverallSignificance, cases.size()));
+  std::uint64_t seed = 8000;
+  for (const InterfacedCase& c : cases) {
+    std::mt19937_64 random(seed);
+    const Accuracy accuracy = seed++ % 4 == 0 ? Accuracy::kFast : Accuracy::kStandard;
+    const Direction wi = c.wi();
+    const auto of = [&](std::string_view quantity, const DirectionColumns<double>& wo, auto... more) {
+      return RunOne<double>(c.distribution.Model("interfaced_body", quantity), wo.size(), {}, wi, wo,
+                            c.distribution, c.n, c.k, more...);
+    };
+    const auto draw = [&](std::size_t n) {
+      Column<float> u[5];
+      for (Column<float>& column : u) column = UniformNumbers<float>(n, random);
+      return RunAll<float>(c.distribution.Model("interfaced_body", "sample_with_interface"), n, {accuracy},
+                           wi, u[0], u[1], u[2], u[3], u[4], c.distribution, c.n, c.k);
+    };
+    const std::vector<Column<float>> pilot = draw(20000), samples = draw(kSamples);
+    const DensityTest test =
+        TestDensity(DirectionColumns<float>{pilot[0], pilot[1], pilot[2]},
+                    DirectionColumns<float>{samples[0], samples[1], samples[2]},
+                    [&](const DirectionColumns<double>& wo) { return of("pdf_with_interface", wo); });
+    tally.Add(test, kSamples, c.Text());
+
+    double sum = 0, squares = 0, missed = 0;
+    for (std::size_t i = 0; i < kSamples; ++i) {
+      const double weight = samples[3][i];
+      missed += samples[5][i] == 0 ? 1 : 0;
+      EXPECT_EQ(samples[5][i] == 0, samples[4][i] == 0);
+      sum += weight;
+      squares += weight * weight;
+    }
+    EXPECT_LT(missed, 0.5 * kSamples);
+    // The integral by cells of equal cosine and azimuth, refined where the interface reflects.
+    const Rule rule = GaussLegendre(160);
+    DirectionColumns<double> wo;
+    Column<double> solid_angle;
+    constexpr int kAzimuths = 160;
+    const double side = wi.z < 0 ? -1 : 1;
+    for (std::size_t j = 0; j < rule.node.size(); ++j) {
+      for (int k = 0; k < kAzimuths; ++k) {
+        const double theta = kTestPi / 4 * (1 + rule.node[j]);
+        const Direction v = Spherical(theta, (k + 0.5) * 2 * kTestPi / kAzimuths);
+        wo.PushBack({v.x, v.y, side * v.z});
+        solid_angle.push_back(rule.weight[j] * kTestPi / 4 * std::sin(theta) * 2 * kTestPi / kAzimuths);
+      }
+    }
+    const Column<double> body = of("eval", wo, 16.0);
+    const Column<double> surface = RunOne<double>(c.distribution.Dielectric("eval_reflection"), wo.size(), {},
+                                                  wi, wo, c.distribution, c.n);
+    double exact = 0;
+    for (std::size_t i = 0; i < wo.size(); ++i) exact += (body[i] + surface[i]) * solid_angle[i];
+    const double mean = sum / kSamples;
+    const double error = std::sqrt((squares / kSamples - mean * mean) / (kSamples - 1.0));
+    means.Add(mean - exact, bound * error + 1e-5, [&] { return c.Text(); });
+    EXPECT_LT(error * std::sqrt(double{kSamples}), 3 * mean) << c.Text();
   }
 }
 

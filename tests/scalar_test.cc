@@ -231,7 +231,11 @@ constexpr ScalarBound FindModelBound(Normals normals, const DielectricQuantity& 
 
 constexpr ScalarBound FindBound(std::size_t kernel) {
   if (kernel >= kFirstMeanFresnelKernel) return {"", 1, 1024};
-  if (kernel >= kFirstDiffuseKernel) return {"", 6, 64};  // Lambda of Beckmann
+  if (kernel >= kFirstDiffuseKernel) {
+    const bool samples =
+        kDiffuseQuantities[PlaceOfDiffuseKernel(kernel).quantity].what == DielectricQuantity::kSample;
+    return {"", 6, samples ? 0x1p18 : 64};  // Lambda of Beckmann
+  }
   if (kernel >= kFirstReflectorKernel) {
     const ReflectorKernelPlace place = PlaceOfReflectorKernel(kernel);
     return FindModelBound(place.normals, kReflectorQuantities[place.quantity]);
@@ -506,7 +510,7 @@ class Generator {
     if (name == "f0") return Chance(0.2) ? 0 : Chance(0.2) ? 1 : LogUniform(1e-9, 1);
     if (name == "Lambda_i" || name == "Lambda_o")
       return Chance(0.1) ? 0 : LogUniform(Chance(0.2) ? 1e-44 : 1e-4, Chance(0.2) ? 1e38 : 1e4);
-    if (name == "u1" || name == "u2" || name == "u3") return Random();
+    if (name[0] == 'u') return Random();
     if (name == "x") return Chance(0.2) ? Sign() * LogUniform(1e-20, 1) : -104 + 192 * Uniform();
     if (name == "gamma" || name == "tail") return gamma_;
     if (name == "mu") {
@@ -584,7 +588,9 @@ void Judge(std::size_t kernel, const double* in, bool importance, Worst& worst) 
   }
   // At eta = 1 the refraction Jacobian is infinite, however its oracle rounds 1/0.
   const bool samples = outputs.name[outputs.count - 1] == "lobe";
-  if (samples && got[5] == 2 && in[Split(kKernels[kernel].inputs).count - 1] == 1 && truth.exact[4] > 0) {
+  const Names names = Split(kKernels[kernel].inputs);
+  if (samples && got[5] == 2 && names.name[names.count - 1] == "eta" && in[names.count - 1] == 1 &&
+      truth.exact[4] > 0) {
     truth.exact[4] = truth.scale[4] = oracle::Infinity();
   }
   for (std::size_t i = 0; i < outputs.count; ++i) {

@@ -51,6 +51,8 @@ enum class Metric {
   // reflect all, plus kDirection's kappa times |dF/d(wi.m)|/F. Judged where the error that kDirection allows
   // is small beside wo.z, r/(alpha_x + alpha_y), and Schlick's F/|dF/d(wi.m)| or a conductor's |g^2|/|wi.m|;
   // other weights of opaque surfaces beside the latter two.
+  // Of an interface over a body (1 + 1/|wi.h|) (1 + 1/|wo.z|) times kDirection's kappa of the lobe; of the weight, plus
+  // that of the body's normal m times 1/(wi.m) + 1/(wo.m).
   // Of a mean of F over normals: 1 + the mean of (|F(c + e) - F(c)| + |F(c - e) - F(c)|)/F over 2^-21, for e
   // = 2^-21 c times kDirection's kappa of the normal, of GGX at least that with alphas of 1; c - e at least
   // 0. Of a dielectric about visible normals the first kappa, times that of the normal: of a density that of
@@ -119,6 +121,8 @@ inline constexpr Input kInputs[] = {
     {"u1", 0, 1, "uniform random number in [0, 1)"},
     {"u2", 0, 1, "uniform random number in [0, 1)"},
     {"u3", 0, 1, "uniform random number in [0, 1)"},
+    {"u4", 0, 1, "uniform random number in [0, 1)"},
+    {"u5", 0, 1, "uniform random number in [0, 1)"},
     {"x", -104, 88, "argument"},
     {"a", 0, 32, "1 / (alpha tan(theta)), Heitz 2014"},
     {"mu", 0, 0x1p60, "1 / (alpha tan(theta) sqrt(gamma - 1))"},
@@ -214,6 +218,19 @@ inline constexpr std::string_view kDiffuseNote =
     "against which the error bounds are; 0 for opposite sides and where wiz or woz is 0. Height-correlated: G = 1/(1 + Lambda_i + "
     "Lambda_o), Heitz 99.";
 inline constexpr std::string_view kDiffuseSeparableNote = "As eval with the separable G = G1(i) G1(o), Heitz 98.";
+inline constexpr std::string_view kOneNormalNote =
+    "eval's integrand over mz D(m): unbiased for m of sample_normal of the distribution, f(wi.m, wo.m) (wi.m) (wo.m) G2/(|wiz| mz), f "
+    "that of a facet. -wi and -wo in place of them below the surface; 0 where wi.m, wo.m or mz is not above 0 and for opposite sides.";
+inline constexpr std::string_view kOneVisibleNormalNote =
+    "eval's integrand over D_visible of wi: unbiased for m of sample_visible_normal of the distribution, f(wi.m, wo.m) (wo.m) G2/G1(wi), f "
+    "that of a facet. -wi and -wo in place of them below the surface; 0 where wi.m, wo.m or mz is not above 0 and for opposite sides.";
+inline constexpr std::string_view kPdfWithInterfaceNote =
+    "R_s/(R_s + R_b) pdf_visible_reflection of the distribution + R_b/(R_s + R_b) |cos(theta_o)|/pi, R_s = r_e, R_b = (1 - r_e)^2 k/(n^2 (1 - "
+    "k r_i)): wo by the interface's visible normals or by the cosine; by the cosine alone where both are 0; 0 for opposite sides.";
+inline constexpr std::string_view kSampleWithInterfaceNote =
+    "Where u3 < R_s/(R_s + R_b) of pdf_with_interface (lobe 1) wo = 2 (wi.m) m - wi of the visible normal m by u1 and u2, else (lobe 2) "
+    "by the cosine. pdf is that of both together, weight (f_s + f_b) |cos(theta_o)| / pdf of rough_dielectric's eval_reflection and of "
+    "eval_one_visible_normal about the visible normal by u4 and u5. All 0 with lobe 0 where wo is on the other side or wiz is 0. In double lanes.";
 inline constexpr std::string_view kInterfacedNote =
     "f |cos(theta_o)| of the body: Lambertian of albedo k under smooth facets of index n_i, without light from facet to facet, as a sum over "
     "the normals of rough_diffuse's rule, against which the error bounds are. n_i = 1 is rough_diffuse times k. Height-correlated: G = 1/(1 + "
@@ -547,7 +564,7 @@ constexpr bool HasVisibleNormals(Normals normals) {
 // What the rough dielectric gives over each distribution of normals; what has to do with visible normals, last, only where
 // the distribution has them.
 struct DielectricQuantity {
-  enum What { kEval, kPdf, kEvalPdf, kSample };
+  enum What { kEval, kPdf, kEvalPdf, kSample, kEvalNormal };  // the last: about a given normal
   enum Joint { kCorrelated, kSeparable, kVCavity, kKelemen };
   std::string_view name;
   What what;
@@ -636,19 +653,27 @@ struct ScattererRow {
   std::string_view id;          // of the family over GGX
   std::string_view parameters;  // behind those of the distribution
   std::string_view source;
-  std::string_view note;  // of eval
+  std::string_view note;   // of eval
+  std::size_t quantities;  // how many of kDiffuseQuantities it gives
 };
 
 inline constexpr ScattererRow kScatterers[] = {
-    {"rough_diffuse", "", "Heitz 2014 Eq. 31", kDiffuseNote},
-    {"interfaced_body", " n_i k", "Meneveaux 2015 Eq. 12", kInterfacedNote},
+    {"rough_diffuse", "", "Heitz 2014 Eq. 31", kDiffuseNote, 6},
+    {"interfaced_body", " n_i k", "Meneveaux 2015 Eq. 12", kInterfacedNote, 8},
 };
 inline constexpr std::size_t kNumScatterers = std::size(kScatterers);
 
-// What facets that scatter give over each distribution that is a stretch of a radial one.
+// What facets that scatter give over each distribution that is a stretch of a radial one; what only interfaced ones do
+// stands last.
 inline constexpr DielectricQuantity kDiffuseQuantities[] = {
     {"eval", DielectricQuantity::kEval, true, false, DielectricQuantity::kCorrelated, "Heitz 2014 Eq. 99", ""},
     {"eval_separable", DielectricQuantity::kEval, true, false, DielectricQuantity::kSeparable, "Heitz 2014 Eq. 98", kDiffuseSeparableNote},
+    {"eval_one_normal", DielectricQuantity::kEvalNormal, true, false, DielectricQuantity::kCorrelated, "Meneveaux 2015 Eq. 28; Heitz 2014 Eq. 99", kOneNormalNote},
+    {"eval_one_normal_separable", DielectricQuantity::kEvalNormal, true, false, DielectricQuantity::kSeparable, "Meneveaux 2015 Eq. 28; Heitz 2014 Eq. 98", kOneNormalNote},
+    {"eval_one_visible_normal", DielectricQuantity::kEvalNormal, true, false, DielectricQuantity::kCorrelated, "Meneveaux 2015 Eq. 28; Heitz 2014 Eqs. 16, 99", kOneVisibleNormalNote, true},
+    {"eval_one_visible_normal_separable", DielectricQuantity::kEvalNormal, true, false, DielectricQuantity::kSeparable, "Meneveaux 2015 Eq. 28; Heitz 2014 Eqs. 16, 98", kOneVisibleNormalNote, true},
+    {"pdf_with_interface", DielectricQuantity::kPdf, true, false, DielectricQuantity::kCorrelated, "Meneveaux 2015 section 4, R_s and R_b; Walter 2007 Eq. 14; Heitz 2014 Eq. 16", kPdfWithInterfaceNote, true},
+    {"sample_with_interface", DielectricQuantity::kSample, true, false, DielectricQuantity::kCorrelated, "Meneveaux 2015 section 4, R_s and R_b; Walter 2007 Eq. 39; Heitz 2014 Eqs. 16, 99", kSampleWithInterfaceNote, true},
 };
 inline constexpr std::size_t kNumDiffuseQuantities = std::size(kDiffuseQuantities);
 
@@ -678,7 +703,7 @@ struct ModelFamily {
   Bounds eval_reflection{}, pdf_reflection{}, sample{};
   Bounds reflector_value[kNumReflectors]{}, reflector_sample[kNumReflectors]{};
   Bounds reflector_sample_v_cavity[kNumReflectors]{}, reflector_sample_visible[kNumReflectors]{},
-      sample_visible{}, diffuse[kNumScatterers]{};
+      sample_visible{}, diffuse[kNumScatterers]{}, one_normal[kNumScatterers]{}, pdf_with_interface{}, sample_with_interface{};
   Bounds mean_fresnel[kNumMeanFresnelQuantities]{};
   // NOLINTEND(readability-redundant-member-init)
 
@@ -699,7 +724,7 @@ inline constexpr ModelFamily kModelFamilies[] = {
      {{1, 14, 450, 16, 13}, {1, 14, 1000, 16, 13}, {1, 14, 450, 16, 13}},
      {{1, 16, 2800, 24, 4000}, {1, 16, 2800, 24, 4000}, {1, 16, 2800, 24, 4000}},
      {{1, 24, 2800, 32, 24}, {1, 24, 3400, 32, 60}, {1, 24, 2800, 32, 24}}, {1, 24, 6500, 32, 24},
-     {{1, 14, 4200, 14, 256}, {1, 20, 4200, 24, 256}},
+     {{1, 14, 4200, 14, 256}, {1, 20, 4200, 24, 256}}, {{1, 14, 4200, 14, 256}, {1, 24, 4200, 28, 256}}, {1, 14, 4200, 20, 4096}, {1, 1, 1, 1, 0x1p15},
      {{1, 24, 3600, 36, 256}, {1, 30, 4400, 64, 256}, {1, 24, 1200, 24, 64}, {1, 1, 64, 1, 40}}},
     {"_beckmann", "alpha_x alpha_y", "Beckmann: Walter 2007 Eqs. 25, 26, 28, 29, stretched",
      {1, 19, 6500, 24, 0x1p21}, {1, 18, 6500, 24, 0x1p14}, {1, 14, 2400, 20, 4800}, {1, 24, 6500, 32, 17},
@@ -707,7 +732,7 @@ inline constexpr ModelFamily kModelFamilies[] = {
      {{1, 14, 450, 16, 13}, {1, 14, 1000, 16, 13}, {1, 14, 450, 16, 13}},
      {{1, 16, 2800, 24, 4000}, {1, 16, 2800, 24, 4000}, {1, 16, 2800, 24, 4000}},
      {{1, 18, 2800, 20, 26}, {1, 18, 2800, 20, 40}, {1, 18, 2800, 20, 26}}, {1, 24, 6500, 32, 24},
-     {{1, 14, 4200, 14, 512}, {1, 20, 4200, 24, 512}},
+     {{1, 14, 4200, 14, 512}, {1, 20, 4200, 24, 512}}, {{1, 14, 4200, 14, 512}, {1, 24, 4200, 28, 512}}, {1, 14, 4200, 20, 4800}, {1, 1, 1, 1, 0x1p18},
      {{1, 40, 4400, 40, 256}, {1, 30, 4600, 64, 256}, {1, 40, 1200, 40, 64}, {1, 1, 32, 1, 16}}},
     {"_phong", "exponent", "Phong: Walter 2007 Eqs. 27, 30-32",
      {1, 21, 6500, 24, 0x1p21}, {1, 20, 6500, 24, 0x1p14}, {1, 14, 2400, 20, 4200}, {1, 24, 4600, 32, 17},
@@ -753,9 +778,16 @@ constexpr std::size_t NumReflectorQuantities(Normals normals) {
 constexpr std::size_t NumReflectorKernels(Normals normals) {
   return kNumReflectors * NumReflectorQuantities(normals);
 }
+// The first kernel of each scatterer over one distribution, and the end of the last.
+constexpr auto MakeFirstScattererKernels() {
+  std::array<std::size_t, kNumScatterers + 1> first{};
+  for (std::size_t i = 0; i < kNumScatterers; ++i) first[i + 1] = first[i] + kScatterers[i].quantities;
+  return first;
+}
+inline constexpr auto kFirstScattererKernels = MakeFirstScattererKernels();
 constexpr std::size_t NumDiffuseKernels(Normals normals) {
   return kModelFamilies[static_cast<std::size_t>(normals)].diffuse[0].high > 0
-             ? kNumScatterers * kNumDiffuseQuantities
+             ? kFirstScattererKernels[kNumScatterers]
              : 0;
 }
 constexpr std::size_t NumMeanFresnelKernels(Normals normals) {
@@ -795,7 +827,7 @@ inline constexpr std::size_t kNumDielectricKernels = kFirstReflectorKernel - kFi
 inline constexpr std::size_t kNumReflectorKernels = kFirstDiffuseKernel - kFirstReflectorKernel;
 inline constexpr std::size_t kNumDiffuseKernels = kFirstMeanFresnelKernel - kFirstDiffuseKernel;
 inline constexpr std::size_t kNumMeanFresnelKernels = kNumKernels - kFirstMeanFresnelKernel;
-inline constexpr std::size_t kMaxInputs = 12;
+inline constexpr std::size_t kMaxInputs = 13;
 inline constexpr std::size_t kMaxOutputs = 6;
 
 // A model's kernel: its distribution of normals and place in the model's quantities.
@@ -849,11 +881,13 @@ struct DiffuseKernelPlace {
 };
 constexpr std::size_t DiffuseKernel(const DiffuseKernelPlace& place) {
   return ModelKernel(kFirstDiffuseKernels, place.normals,
-                     static_cast<std::size_t>(place.scatterer) * kNumDiffuseQuantities + place.quantity);
+                     kFirstScattererKernels[static_cast<std::size_t>(place.scatterer)] + place.quantity);
 }
 constexpr DiffuseKernelPlace PlaceOfDiffuseKernel(std::size_t kernel) {
   const auto [normals, i] = PlaceOfModelKernel(kFirstDiffuseKernels, kernel);
-  return {normals, static_cast<Scatterer>(i / kNumDiffuseQuantities), i % kNumDiffuseQuantities};
+  std::size_t scatterer = kNumScatterers - 1;
+  while (i < kFirstScattererKernels[scatterer]) --scatterer;
+  return {normals, static_cast<Scatterer>(scatterer), i - kFirstScattererKernels[scatterer]};
 }
 
 // A kernel of a distribution of normals: its place in kNormalRows, and its kind of roughness.
@@ -912,6 +946,17 @@ constexpr std::size_t FindDielectricQuantity(DielectricQuantity::What what, bool
   return i;
 }
 
+// Index into kDiffuseQuantities, or their number if there is none.
+constexpr std::size_t FindDiffuseQuantity(DielectricQuantity::What what, DielectricQuantity::Joint joint,
+                                          bool visible = false) {
+  std::size_t i = 0;
+  for (const DielectricQuantity& q : kDiffuseQuantities) {
+    if (q.what == what && q.joint == joint && q.visible == visible) break;
+    ++i;
+  }
+  return i;
+}
+
 // Text joined at compile time.
 class JoinedText {
  public:
@@ -954,10 +999,14 @@ struct ModelText {
   JoinedText id, inputs, source;
 };
 
-// id: of the family over GGX; parameters: the model's own, behind the distribution's.
+// id: of the family over GGX; parameters: the model's own, behind the distribution's; sample: what its sampler takes, where
+// that is not as of others.
 constexpr ModelText MakeModelText(std::string_view id, std::string_view parameters, std::string_view source,
-                                  const ModelFamily& family, const DielectricQuantity& q) {
-  const std::string_view lanes = q.what != DielectricQuantity::kSample ? "wix wiy wiz wox woy woz"
+                                  const ModelFamily& family, const DielectricQuantity& q,
+                                  std::string_view sample = {}) {
+  const std::string_view lanes = q.what == DielectricQuantity::kEvalNormal ? "wix wiy wiz wox woy woz mx my mz"
+                                 : q.what != DielectricQuantity::kSample   ? "wix wiy wiz wox woy woz"
+                                 : !sample.empty()                         ? sample
                                  : q.HasBothLobes() || q.joint == DielectricQuantity::kVCavity
                                      ? "wix wiy wiz u1 u2 u3"
                                      : "wix wiy wiz u1 u2";
@@ -995,10 +1044,12 @@ constexpr auto MakeDiffuseText() {
   for (std::size_t i = 0; i < kNumDiffuseKernels; ++i) {
     const DiffuseKernelPlace place = PlaceOfDiffuseKernel(kFirstDiffuseKernel + i);
     const ScattererRow& scatterer = kScatterers[static_cast<std::size_t>(place.scatterer)];
-    text[i] = MakeModelText(scatterer.id, JoinedText(scatterer.parameters, " | order").view(),
+    const DielectricQuantity& q = kDiffuseQuantities[place.quantity];
+    const bool sums = q.what == DielectricQuantity::kEval;
+    text[i] = MakeModelText(scatterer.id, JoinedText(scatterer.parameters, sums ? " | order" : "").view(),
                             JoinedText("; ", scatterer.source).view(),
-                            kModelFamilies[static_cast<std::size_t>(place.normals)],
-                            kDiffuseQuantities[place.quantity]);
+                            kModelFamilies[static_cast<std::size_t>(place.normals)], q,
+                            "wix wiy wiz u1 u2 u3 u4 u5");
   }
   return text;
 }
@@ -1021,7 +1072,7 @@ constexpr auto MakeMeanFresnelText() {
 inline constexpr auto kMeanFresnelText = MakeMeanFresnelText();
 
 constexpr std::array<Kernel, kNumKernels> MakeKernels() {
-  constexpr std::string_view outputs[] = {"f_cos", "pdf", "f_cos pdf", "wox woy woz weight pdf lobe"};
+  constexpr std::string_view outputs[] = {"f_cos", "pdf", "f_cos pdf", "wox woy woz weight pdf lobe", "f_cos"};
   std::array<Kernel, kNumKernels> kernels{};
   for (std::size_t i = 0; i < kNumComponentKernels; ++i) kernels[i] = kComponentKernels[i];
   for (std::size_t i = 0; i < kNumNormalKernels; ++i) {
@@ -1062,8 +1113,13 @@ constexpr std::array<Kernel, kNumKernels> MakeKernels() {
   for (std::size_t i = 0; i < kNumDiffuseKernels; ++i) {
     const DiffuseKernelPlace place = PlaceOfDiffuseKernel(kFirstDiffuseKernel + i);
     const std::size_t scatterer = static_cast<std::size_t>(place.scatterer);
-    add_model(kFirstDiffuseKernel + i, kDiffuseText[i], kDiffuseQuantities[place.quantity], false,
-              kModelFamilies[static_cast<std::size_t>(place.normals)].diffuse[scatterer]);
+    const ModelFamily& family = kModelFamilies[static_cast<std::size_t>(place.normals)];
+    const DielectricQuantity& q = kDiffuseQuantities[place.quantity];
+    add_model(kFirstDiffuseKernel + i, kDiffuseText[i], q, false,
+              q.what == DielectricQuantity::kEval     ? family.diffuse[scatterer]
+              : q.what == DielectricQuantity::kPdf    ? family.pdf_with_interface
+              : q.what == DielectricQuantity::kSample ? family.sample_with_interface
+                                                      : family.one_normal[scatterer]);
     if (place.quantity == 0) kernels[kFirstDiffuseKernel + i].note = kScatterers[scatterer].note;
   }
   for (std::size_t i = 0; i < kNumMeanFresnelKernels; ++i) {

@@ -77,8 +77,8 @@ class Prepared;  // prepared.h
 // has are set and read: clearing the others would cost more than a short batch.
 template <class T>
 struct Call {
-  const T* in[12];
-  bool uniform[12] = {};  // in[k] is one value; only for inputs behind the list's '|'
+  const T* in[13];
+  bool uniform[13] = {};  // in[k] is one value; only for inputs behind the list's '|'
   T* out[6];              // an output may be the same array as an input; other overlap is not allowed
   Transport transport = Transport::kRadiance;
   const Prepared* prepared = nullptr;  // of kernels with inputs behind the list's second bar

@@ -72,6 +72,11 @@ struct LambertianFacets {
   // What sums below are to be multiplied by.
   static constexpr double kScale = 1;
 
+  // x s / y of cosines 2^-40 a and 2^-40 b.
+  template <Accuracy A, class D>
+  static HWY_INLINE Vec<D> TimesOver(D d, Vec<D> x, Vec<D> y, Vec<D>, Vec<D>) {
+    return Div<A>(d, x, y);
+  }
   // sum + x s/sqrt(m2).
   template <Accuracy A, class D>
   static HWY_INLINE Vec<D> Add(D d, Vec<D> sum, Vec<D> x, Vec<D> m2, Vec<D>, Vec<D>) {
@@ -351,6 +356,79 @@ HWY_INLINE Vec<D> RoughDiffuse(D d, const QuadratureRule& rule, Vec<D> ix, Vec<D
                                               : hn::Div(numerator, denominator);
   const auto outside = hn::Or(hn::Le(zi, zero), hn::Le(zo, zero));
   return ZeroIf(outside, hn::Mul(hn::Mul(sum, Const(d, Facets::kScale / (kPi * kPi))), masking));
+}
+
+// What m makes of f |cos(theta_o)|, over the density of m, mz D or, kVisible, D_visible of wi (Meneveaux 2015
+// Eq. 28): with a facet's f = s/pi and mu = |v.z| (1 + 2 Lambda(v)),
+//   mz D: s (wi.m) (wo.m) G2/(pi |wi.z| mz),  D_visible: s (wo.m) G2/(pi G1(wi)),
+// where G2/|wi.z| = 2 |wo.z| / (|wo.z| mu_i + |wi.z| mu_o) and G2/G1 = |wo.z| (|wi.z| + mu_i) / the same; of
+// separable masking 4 |wo.z| / ((|wi.z| + mu_i) (|wo.z| + mu_o)) and 2 |wo.z| / (|wo.z| + mu_o).
+template <class Dist, class Facets, JointMasking kG, bool kVisible, Accuracy A, class D, class... V>
+HWY_INLINE Vec<D> OneNormalPass(D d, Vec<D> ix, Vec<D> iy, Vec<D> iz, Vec<D> ox, Vec<D> oy, Vec<D> oz,
+                                Vec<D> mx, Vec<D> my, Vec<D> mz, Vec<D> alpha_x, Vec<D> alpha_y, V... facet) {
+  const Vec<D> zero = hn::Zero(d), zi = hn::Abs(iz), zo = FlipSign(d, oz, iz);
+  Vec<D> a, b, unused;
+  InDouble2<InStandard<CarefulDotOp>>(d, a, unused, ix, iy, iz, mx, my, mz);
+  InDouble2<InStandard<CarefulDotOp>>(d, b, unused, ox, oy, oz, mx, my, mz);
+  a = FlipSign(d, a, iz);
+  b = FlipSign(d, b, iz);
+  const Vec<D> mu_o = Dist::template Masking<Care::kCareful, A>(d, ox, oy, zo, alpha_x, alpha_y);
+  // Scaled so that small cosines do not underflow together; a and b are times 2^40.
+  const Vec<D> scale = Const(d, 0x1p20), scaled_zo = hn::Mul(zo, scale), b_zo = hn::Mul(b, scaled_zo);
+  const Vec<D> one_over_pi = Const(d, 0x1p-40 / kPi);
+  Vec<D> x, y;
+  if constexpr (kVisible && kG == JointMasking::kSeparable) {
+    x = hn::Mul(hn::Add(b_zo, b_zo), one_over_pi);
+    y = hn::Mul(hn::Add(zo, mu_o), scale);
+  } else {
+    const Vec<D> mu_i = Dist::template Masking<Care::kCareful, A>(d, ix, iy, zi, alpha_x, alpha_y);
+    const Vec<D> visible = hn::Add(zi, mu_i);
+    if constexpr (kG == JointMasking::kSeparable) {
+      x = hn::Mul(b_zo, Const(d, 4 * 0x1p-40 / kPi));
+      y = hn::Mul(hn::Mul(hn::Add(zo, mu_o), scale), visible);
+    } else {
+      x = hn::Mul(b_zo, kVisible ? hn::Mul(visible, one_over_pi) : Const(d, 2 * 0x1p-40 / kPi));
+      y = hn::MulAdd(scaled_zo, mu_i, hn::Mul(hn::Mul(zi, scale), mu_o));
+    }
+    if constexpr (!kVisible) {
+      x = hn::Mul(x, hn::Mul(a, Const(d, 0x1p-20)));
+      y = hn::Mul(y, hn::Mul(mz, Const(d, 0x1p20)));
+    }
+  }
+  const auto lit = hn::And(hn::Gt(hn::Min(a, b), zero), hn::Gt(mz, zero));
+  const auto inside = hn::And(lit, hn::And(hn::Gt(zi, zero), hn::Gt(zo, zero)));
+  return hn::IfThenElseZero(inside, Facets::template TimesOver<A>(d, x, y, a, b, facet...));
+}
+template <class Dist, class Facets, JointMasking kG, bool kVisible>
+struct OneNormalOp {
+  template <class DD, class... In>
+  static HWY_INLINE void Run(DD dd, Vec<DD>& value, Vec<DD>& unused, In... in) {
+    value = unused = OneNormalPass<Dist, Facets, kG, kVisible, Accuracy::kStandard>(dd, in...);
+  }
+};
+// Out of line: few lanes need it.
+template <class Dist, class Facets, JointMasking kG, bool kVisible, class D, class... In>
+HWY_NOINLINE Vec<D> OneNormalInDouble(D d, In... in) {
+  Vec<D> value, unused;
+  InDouble2<OneNormalOp<Dist, Facets, kG, kVisible>>(d, value, unused, in...);
+  return value;
+}
+
+// Where cosines are so small that their products leave the range of floats, in double lanes.
+template <class Dist, class Facets, JointMasking kG, bool kVisible, Accuracy A, class D, class... In>
+HWY_INLINE Vec<D> OneNormal(D d, Vec<D> ix, Vec<D> iy, Vec<D> iz, Vec<D> ox, Vec<D> oy, Vec<D> oz, Vec<D> mx,
+                            Vec<D> my, Vec<D> mz, In... in) {
+  Vec<D> value = OneNormalPass<Dist, Facets, kG, kVisible, A>(d, ix, iy, iz, ox, oy, oz, mx, my, mz, in...);
+  if constexpr (kIsFloat<D>) {
+    const Vec<D> least = hn::Min(hn::Max(hn::Abs(iz), hn::Abs(oz)), hn::Abs(mz));
+    const auto hard = hn::Lt(least, Const(d, 0x1p-30));
+    if (HWY_UNLIKELY(!hn::AllFalse(d, hard))) {
+      value = hn::IfThenElse(
+          hard, OneNormalInDouble<Dist, Facets, kG, kVisible>(d, ix, iy, iz, ox, oy, oz, mx, my, mz, in...),
+          value);
+    }
+  }
+  return value;
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // Diffuse rough surfaces in batches: white Lambertian microfacets (Heitz 2014 Eq. 31), by a quadrature of any
-// order over the normals. Multiply by the facets' albedo; light that goes from facet to facet is left out.
+// order over the normals, or by one random normal. Multiply by the facets' albedo; light that goes from facet
+// to facet is left out.
 //
 // All functions work on n lanes of float or double and are thread-safe. Errors are those that the kernel list
 // declares for the id named with each function, <family>.<id>, against the sum over the rule's normals; NaN
@@ -28,6 +29,14 @@ class RoughDiffuseLanes {
                    const RoughnessOf<kNormals, T>& roughness, const QuadratureRule& rule, T* f_cos,
                    Accuracy accuracy = Accuracy::kStandard,
                    JointMasking masking = JointMasking::kHeightCorrelated);
+  // One normal's estimate of Eval's integral (Meneveaux 2015 Eq. 28), unbiased for m drawn as `sampling`
+  // says, by the distribution's SampleVisibleNormal of wi or SampleNormal. eval_one_visible_normal,
+  // eval_one_normal, and these with _separable.
+  static void EvalOneNormal(std::size_t n, const Directions<T>& wi, const Directions<T>& wo,
+                            const Directions<T>& m, const RoughnessOf<kNormals, T>& roughness, T* f_cos,
+                            Accuracy accuracy = Accuracy::kStandard,
+                            JointMasking masking = JointMasking::kHeightCorrelated,
+                            Sampling sampling = Sampling::kVisibleNormals);
 };
 
 // The same in float and double: T is that of the outputs.
@@ -36,6 +45,8 @@ class RoughDiffuseCalls : RoughDiffuseLanes<kNormals, float>, RoughDiffuseLanes<
  public:
   using RoughDiffuseLanes<kNormals, float>::Eval;
   using RoughDiffuseLanes<kNormals, double>::Eval;
+  using RoughDiffuseLanes<kNormals, float>::EvalOneNormal;
+  using RoughDiffuseLanes<kNormals, double>::EvalOneNormal;
 };
 
 using rough_diffuse = RoughDiffuseCalls<Normals::kGgx>;

@@ -4,23 +4,32 @@
 
 #include <cstddef>
 
+#include "microlane/quadrature.h"
 #include "microlane/rough_reflector.h"
 
 namespace microlane {
 
-template <Reflector kReflector>
+// Facets: the parameters of one channel.
+template <class Facets>
 struct ChannelCall {
-  const float* in[8];  // wi, wo, then the distribution's parameters
-  bool uniform[8];     // of the latter
+  const float* in[9];  // wi, wo, then the distribution's parameters, then those that channels share
+  bool uniform[9];     // of the latter two
   bool separable;      // masking
   Accuracy accuracy;   // kStandard or kFast
   std::size_t channels;
-  const FacetParameters<kReflector, float>* facets;
+  const Facets* facets;
   float* const* out;
+  const QuadratureRule* rule;  // of sums over normals, or null
+
+  void Put(std::size_t k, const Parameter<float>& parameter) {
+    in[k] = parameter.data();
+    uniform[k] = parameter.uniform();
+  }
 };
 
-using ConductorChannels = ChannelCall<Reflector::kConductor>;
-using SchlickChannels = ChannelCall<Reflector::kSchlick>;
+using ConductorChannels = ChannelCall<FacetParameters<Reflector::kConductor, float>>;
+using SchlickChannels = ChannelCall<FacetParameters<Reflector::kSchlick, float>>;
+using BodyChannels = ChannelCall<Parameter<float>>;
 
 // One distribution's on one target.
 struct ChannelCode {
@@ -28,6 +37,8 @@ struct ChannelCode {
   void (*schlick)(const SchlickChannels&, std::size_t);
 };
 using ChannelFunction = ChannelCode (*)();
+using BodyChannelCode = void (*)(const BodyChannels&, std::size_t);
+using BodyChannelFunction = BodyChannelCode (*)();
 
 template <Normals kNormals>
 const ChannelFunction* ChannelTable();
@@ -37,6 +48,13 @@ template <>
 const ChannelFunction* ChannelTable<Normals::kBeckmann>();
 template <>
 const ChannelFunction* ChannelTable<Normals::kPhong>();
+
+template <Normals kNormals>
+const BodyChannelFunction* BodyChannelTable();
+template <>
+const BodyChannelFunction* BodyChannelTable<Normals::kGgx>();
+template <>
+const BodyChannelFunction* BodyChannelTable<Normals::kBeckmann>();
 
 inline void Run(const ChannelCode& code, const ConductorChannels& call, std::size_t n) {
   code.conductors(call, n);

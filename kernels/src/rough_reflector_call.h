@@ -20,19 +20,14 @@ void AddRoughness(const PhongRoughness<T>& roughness, CallBuilder<T>& call) {
   call.In(roughness.exponent);
 }
 
-template <Reflector kReflector>
-void AddParameter(const Parameter<float>& parameter, std::size_t k, ChannelCall<kReflector>& call) {
-  call.in[k] = parameter.data();
-  call.uniform[k] = parameter.uniform();
+template <class Facets>
+void AddRoughness(const StretchedRoughness<float>& roughness, ChannelCall<Facets>& call) {
+  call.Put(6, roughness.alpha_x);
+  call.Put(7, roughness.alpha_y);
 }
-template <Reflector kReflector>
-void AddRoughness(const StretchedRoughness<float>& roughness, ChannelCall<kReflector>& call) {
-  AddParameter(roughness.alpha_x, 6, call);
-  AddParameter(roughness.alpha_y, 7, call);
-}
-template <Reflector kReflector>
-void AddRoughness(const PhongRoughness<float>& roughness, ChannelCall<kReflector>& call) {
-  AddParameter(roughness.exponent, 6, call);
+template <class Facets>
+void AddRoughness(const PhongRoughness<float>& roughness, ChannelCall<Facets>& call) {
+  call.Put(6, roughness.exponent);
 }
 
 template <class T>
@@ -103,13 +98,14 @@ void RoughReflectorLanes<kNormals, kReflector, T>::EvalChannels(
     const FacetParameters<kReflector, T>* facets, T* const* f_cos, Accuracy accuracy, JointMasking masking) {
   if constexpr (std::is_same_v<T, float> && kReflector != Reflector::kMirror) {
     if (accuracy != Accuracy::kHigh) {
-      ChannelCall<kReflector> call{{wi.x, wi.y, wi.z, wo.x, wo.y, wo.z},
-                                   {},
-                                   masking == JointMasking::kSeparable,
-                                   accuracy,
-                                   channels,
-                                   facets,
-                                   f_cos};
+      ChannelCall<FacetParameters<kReflector, float>> call{{wi.x, wi.y, wi.z, wo.x, wo.y, wo.z},
+                                                           {},
+                                                           masking == JointMasking::kSeparable,
+                                                           accuracy,
+                                                           channels,
+                                                           facets,
+                                                           f_cos,
+                                                           nullptr};
       AddRoughness(roughness, call);
       microlane::Run(ChannelTable<kNormals>()[ChosenTableIndex()](), call, n);
       return;

@@ -358,11 +358,28 @@ void OfDiffuse(Call& call) {
   constexpr DiffuseKernelPlace place = PlaceOfDiffuseKernel(kKernel);
   constexpr Names inputs = Split(kKernels[kKernel].inputs);
   const auto normals = MakeNormals<place.normals, ModelRoughness(place.normals)>(call.in + inputs.per_lane);
-  const auto facet = MakeFacet<place.scatterer>(call.in + 8);
-  const RoughDiffuse<std::remove_const_t<decltype(normals)>, std::remove_const_t<decltype(facet)>> surface{
-      normals, facet, static_cast<int>(call.in[inputs.columns]),
-      MaskingOf(kDiffuseQuantities[place.quantity])};
-  call.out[0] = surface.EvalCos(Direction(call.in), Direction(call.in + 3));
+  constexpr DielectricQuantity row = kDiffuseQuantities[place.quantity];
+  const auto facet = MakeFacet<place.scatterer>(call.in + inputs.per_lane + 2);
+  const Vec wi = Direction(call.in), wo = Direction(call.in + 3);
+  if constexpr (row.what == DielectricQuantity::kSample) {
+    DirectionSample sample;
+    if (wi.z != 0) {
+      const Vec v{wi.x, wi.y, abs(wi.z)};
+      sample = SampleWithInterface(normals, facet, v, SampleNormal<true>(normals, v, call.in[3], call.in[4]),
+                                   SampleNormal<true>(normals, v, call.in[6], call.in[7]),
+                                   {call.in[3], call.in[4], call.in[5]}, call.lobe_hint);
+      if (wi.z < 0) sample.wo.z = -sample.wo.z;
+    }
+    StoreSample(sample, call);
+  } else if constexpr (row.what == DielectricQuantity::kPdf) {
+    call.out[0] = PdfWithInterface(normals, facet, wi, wo);
+  } else {
+    const bool sums = row.what == DielectricQuantity::kEval;
+    const RoughDiffuse<std::remove_const_t<decltype(normals)>, std::remove_const_t<decltype(facet)>> surface{
+        normals, facet, sums ? static_cast<int>(call.in[inputs.columns]) : 0, MaskingOf(row)};
+    call.out[0] =
+        sums ? surface.EvalCos(wi, wo) : surface.OneNormalCos(wi, wo, Direction(call.in + 6), row.visible);
+  }
 }
 
 // A mean over visible normals.

@@ -12,6 +12,7 @@
 #include "oracle/ggx.h"
 #include "oracle/real.h"
 #include "oracle/rough_dielectric.h"
+#include "oracle/rough_reflector.h"
 
 namespace microlane::oracle {
 
@@ -70,6 +71,27 @@ struct InterfacedFacet {
   }
 };
 
+// R_s and R_b of a flat surface, as parts of both.
+struct InterfaceShares {
+  Real surface, body;
+};
+inline InterfaceShares SharesOf(const InterfacedFacet& facet) {
+  const Real R_s = DiffuseFresnelExternal(facet.n);
+  const Real R_b = Square(1 - R_s) * BodyAlbedo(facet.n, facet.k), sum = R_s + R_b;
+  if (sum == 0) return {0, 1};
+  return {R_s / sum, R_b / sum};
+}
+
+// Density of what is drawn, wo from the interface or from the body, as of a flat surface: Meneveaux 2015,
+// section 4, after Eq. 25.
+template <class Distribution>
+Real PdfWithInterface(const Distribution& distribution, const InterfacedFacet& facet, const Vec& wi,
+                      const Vec& wo) {
+  if (wi.z == 0 || wo.z == 0 || Sign(wi.z) != Sign(wo.z)) return 0;
+  const InterfaceShares shares = SharesOf(facet);
+  return shares.surface * PdfVisible(distribution, wi, wo) + shares.body * abs(wo.z) / Pi();
+}
+
 template <class Distribution, class Facet>
 struct RoughDiffuse {
   Distribution distribution;
@@ -83,6 +105,21 @@ struct RoughDiffuse {
     wi.z = abs(wi.z);
     wo.z = abs(wo.z);
     return Integral(wi, wo) * SmithG2(distribution, masking, wi, wo) / (Pi() * wi.z);
+  }
+
+  // The integrand of Meneveaux 2015, Eq. 28, times |cos(theta_o)|, over the density of m that is drawn by D
+  // cos or from the visible normals of wi: Heitz 2014, Eq. 16.
+  Real OneNormalCos(Vec wi, Vec wo, const Vec& m, bool visible) const {
+    if (wi.z == 0 || wo.z == 0 || Sign(wi.z) != Sign(wo.z)) return 0;
+    if (wi.z < 0) {
+      wi = -1 * wi;
+      wo = -1 * wo;
+    }
+    const Real cos_i = Dot(wi, m), cos_o = Dot(wo, m);
+    if (cos_i <= 0 || cos_o <= 0 || m.z <= 0) return 0;
+    const Real value = facet(cos_i, cos_o) / Pi() * cos_i * cos_o / (wi.z * wo.z) *
+                       SmithG2(distribution, masking, wi, wo) * wo.z;
+    return visible ? Real(value * wi.z / (distribution.G1(wi, m) * cos_i)) : Real(value / m.z);
   }
 
  private:
@@ -131,6 +168,48 @@ struct RoughDiffuse {
     return sum;
   }
 };
+
+// Meneveaux 2015, section 4, about visible normals: `drawn` of u1 and u2, `other` of u4 and u5; wi above the
+// surface. A lobe_hint >= 0 takes that lobe whatever the decisions would be; margins are still those of the
+// decisions.
+template <class Distribution>
+DirectionSample SampleWithInterface(const Distribution& distribution, const InterfacedFacet& facet,
+                                    const Vec& wi, const NormalSample& drawn, const NormalSample& other,
+                                    const Real (&u)[3], int lobe_hint) {
+  DirectionSample sample;
+  const Real surface = SharesOf(facet).surface;
+  const Vec reflected = Reflect(wi, drawn.m);
+  int lobe = u[2] < surface ? kReflection : kTransmission;
+  sample.margin = static_cast<double>(Real(abs(u[2] - surface)));
+  if (lobe == kReflection) {
+    sample.margin = std::min(sample.margin, static_cast<double>(Real(abs(reflected.z))));
+    if (reflected.z <= 0) lobe = kNone;
+  }
+  if (lobe_hint >= 0) lobe = lobe_hint;
+  if (lobe == kNone) return sample;
+  const SinCos azimuth = SinCos2Pi(u[1]);
+  const Real sine = sqrt(u[0]);
+  const Vec wo =
+      lobe == kReflection ? reflected : Vec{sine * azimuth.cos, sine * azimuth.sin, Real(sqrt(1 - u[0]))};
+  const Real pdf = PdfWithInterface(distribution, facet, wi, wo);
+  if (wo.z <= 0 || pdf == 0) return sample;
+  const RoughDiffuse<Distribution, InterfacedFacet> body{distribution, facet, 0};
+  const RoughReflector<Distribution, DielectricFacets> interface {
+    distribution, { facet.n }
+  };
+  sample.lobe = lobe;
+  sample.wo = wo;
+  sample.pdf = pdf;
+  sample.weight = (interface.EvalCos(wi, wo) + body.OneNormalCos(wi, wo, other.m, true)) / pdf;
+  const Vec h = wi + wo;
+  const Real c = Dot(wi, h) / sqrt(Dot(h, h));
+  sample.direction_kappa = lobe == kReflection ? drawn.direction_kappa : Real(1);
+  sample.kappa = (1 + 1 / abs(c)) * (1 + 1 / abs(wo.z)) * sample.direction_kappa;
+  const Real cos_i = Dot(wi, other.m), cos_o = Dot(wo, other.m);  // T is as they are where small
+  sample.weight_kappa = sample.kappa;
+  if (cos_i > 0 && cos_o > 0) sample.weight_kappa += other.direction_kappa * (1 / cos_i + 1 / cos_o);
+  return sample;
+}
 
 }  // namespace microlane::oracle
 

@@ -281,15 +281,23 @@ template <class Real, std::size_t kKernel>
 void RunDiffuse(const Real* in, Real* out, Transport) {
   constexpr DiffuseKernelPlace place = PlaceOfDiffuseKernel(kKernel);
   constexpr Names inputs = Split(kKernels[kKernel].inputs);
-  constexpr Masking masking = MaskingOf(kDiffuseQuantities[place.quantity]);
-  const Real order = in[inputs.columns];
-  if (!IsOrder(order)) {
-    out[0] = kNan<Real>;
-    return;
-  }
+  constexpr DielectricQuantity row = kDiffuseQuantities[place.quantity];
+  constexpr Masking masking = MaskingOf(row);
   const auto normals = MakeNormals<place.normals, ModelRoughness(place.normals)>(in + inputs.per_lane);
-  const auto facet = MakeFacet<place.scatterer>(in + 8);
-  out[0] = MakeDiffuse<masking>(normals, facet, static_cast<int>(order)).Eval(Load(in), Load(in + 3));
+  const auto facet = MakeFacet<place.scatterer>(in + inputs.per_lane + 2);
+  const Vec3<Real> wi = Load(in), wo = Load(in + 3);
+  if constexpr (row.what == DielectricQuantity::kSample) {
+    const Real u[5] = {in[3], in[4], in[5], in[6], in[7]};
+    Store(SampleWithInterface<masking>(normals, facet, wi, u), out);
+  } else if constexpr (row.what == DielectricQuantity::kPdf) {
+    out[0] = PdfWithInterface(normals, facet, wi, wo);
+  } else if constexpr (row.what == DielectricQuantity::kEvalNormal) {
+    out[0] = OneNormal<masking, row.visible>(normals, facet, wi, wo, Load(in + 6));
+  } else {
+    const Real order = in[inputs.columns];
+    out[0] = IsOrder(order) ? MakeDiffuse<masking>(normals, facet, static_cast<int>(order)).Eval(wi, wo)
+                            : kNan<Real>;
+  }
 }
 
 // A mean over visible normals. NaN where the order is none.

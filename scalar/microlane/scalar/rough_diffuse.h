@@ -12,6 +12,7 @@
 #include "microlane/scalar/fresnel.h"
 #include "microlane/scalar/ggx.h"
 #include "microlane/scalar/legendre.h"
+#include "microlane/scalar/rough_dielectric.h"
 #include "microlane/scalar/smith.h"
 
 namespace microlane::scalar {
@@ -77,6 +78,80 @@ Real FacetBody(Real cos_i, Real cos_o, Real n, Real k) {
   if (!(cos_i > 0 && cos_o > 0)) return 0;
   const InterfacedFacet<Real> facet{n, k};
   return static_cast<Real>(facet(cos_i, cos_o) * facet.Albedo() / kPi<double>);
+}
+
+// What a normal makes of f |wo.n|, over D_visible of wi or over D cos: Meneveaux 2015 Eq. 28.
+template <Masking masking, bool visible, template <class> class Distribution, class Real, class Facet>
+Real OneNormal(const Distribution<Real>& distribution, const Facet& facet, const Vec3<Real>& wi,
+               const Vec3<Real>& wo, const Vec3<Real>& m) {
+  if (AnyNan(wi, wo, m, distribution, facet)) return kNan<Real>;
+  const double side = wi.z < 0 ? -1 : 1;
+  const double cos_i = side * Narrow<double>(Dot(Widen(wi), Widen(m)));
+  const double cos_o = side * Narrow<double>(Dot(Widen(wo), Widen(m)));
+  if (!(cos_i > 0 && cos_o > 0 && m.z > 0 && side * wi.z > 0 && side * wo.z > 0)) return 0;
+  const double masked = G2OverCos<masking>(distribution, wi, wo), cosine = std::abs(wi.z);
+  const double weight = visible ? masked * (cosine + distribution.ScaledLambda(wi, 1)) : masked * cos_i / m.z;
+  return Saturate<Real>(weight * cos_o * facet(cos_i, cos_o) * facet.Albedo() / kPi<double>);
+}
+
+// What of diffuse light a flat surface's interface and body reflect, as parts of both: Meneveaux 2015 section
+// 4. 0 and 1 where both are 0.
+struct InterfaceShares {
+  double surface, body;
+};
+template <class Real>
+InterfaceShares SharesOf(const InterfacedFacet<Real>& facet) {
+  const double r_e = DiffuseFresnel(Clamp<double>(facet.n, 1, 4), true);
+  const double r_b = Square(1 - r_e) * facet.Albedo(), sum = r_e + r_b;
+  if (!(sum > 0)) return {0, 1};
+  return {r_e / sum, r_b / sum};
+}
+
+// Density of directions from the interface's visible normals or from the cosine.
+template <template <class> class Distribution, class Real>
+Real PdfWithInterface(const Distribution<Real>& distribution, const InterfacedFacet<Real>& facet,
+                      const Vec3<Real>& wi, const Vec3<Real>& wo) {
+  if (AnyNan(wi, wo, distribution, facet)) return kNan<Real>;
+  if (!(wi.z > 0 && wo.z > 0) && !(wi.z < 0 && wo.z < 0)) return 0;
+  const InterfaceShares shares = SharesOf(facet);
+  const double pdf = PdfVisibleReflection(distribution, wi, wo, false);
+  return Saturate<Real>(shares.surface * pdf + shares.body * std::abs(wo.z) / kPi<double>);
+}
+
+// wo by the interface's visible normal of u1 and u2, or by the cosine; weighed by f |wo.n| of interface and
+// body, the body's about the visible normal of u4 and u5.
+template <Masking masking, template <class> class Distribution, class Real>
+DirectionSample<Real> SampleWithInterface(const Distribution<Real>& distribution,
+                                          const InterfacedFacet<Real>& facet, const Vec3<Real>& wi,
+                                          const Real (&u)[5]) {
+  if (AnyNan(wi, u[0], u[1], u[2], u[3], u[4], distribution, facet)) {
+    return {{kNan<Real>, kNan<Real>, kNan<Real>}, kNan<Real>, kNan<Real>, kNoLobe};
+  }
+  constexpr DirectionSample<Real> none{{0, 0, 0}, 0, 0, kNoLobe};
+  if (wi.z == 0) return none;
+  const Vec3<Real> view{wi.x, wi.y, std::abs(wi.z)};
+  const Vec3<double> v{view.x, view.y, view.z};
+  const Distribution<double> wide{distribution.alpha_x, distribution.alpha_y};
+  const InterfacedFacet<double> wide_facet{facet.n, facet.k};
+  const bool specular = u[2] < SharesOf(facet).surface;
+  Vec3<double> wo;
+  if (specular) {
+    wo = Reflect(v, distribution.SampleVisibleNormal(view, u[0], u[1]).m);
+  } else {
+    const double radius2 = std::min<double>(u[0], 1 - 0x1p-53), radius = std::sqrt(radius2);
+    const SinCos<double> azimuth = SinCos2Pi(static_cast<double>(u[1]));
+    wo = {radius * azimuth.cos, radius * azimuth.sin, std::sqrt(1 - radius2)};
+  }
+  const double pdf = PdfWithInterface(wide, wide_facet, v, wo);
+  if (!(wo.z > 0 && pdf > 0)) return none;
+  const RoughDielectric<Distribution, double, masking> surface{wide, Clamp<double>(facet.n, 1, 4),
+                                                               Transport::kRadiance};
+  const Vec3<double> m = distribution.SampleVisibleNormal(view, u[3], u[4]).m;
+  const double value =
+      surface.Eval(v, wo, kReflection) + OneNormal<masking, true>(wide, wide_facet, v, wo, m);
+  const Vec3<double> out{wo.x, wo.y, wi.z < 0 ? -wo.z : wo.z};
+  return {Narrow<Real>(out), Saturate<Real>(value / pdf), Saturate<Real>(pdf),
+          specular ? kReflection : kTransmission};
 }
 
 template <template <class> class Distribution, class Real, Masking masking, class Facet>
